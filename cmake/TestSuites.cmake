@@ -5,6 +5,11 @@ if(NOT EXISTS ${program})
   set_tests_properties(${group}.not_built PROPERTIES LABELS ${group})
   return()
 endif()
+# Seconds that the longest suites take on two cores, with kernels to compile. ctest starts what costs most first, so that none of these is left
+# running alone at the end.
+set(seconds images.All/ShippedPreset 118 hostile.Resumed 105 hostile.Runs 84 environment.EnvironmentRun 76 environment.EnvironmentViewJob 61
+  hostile.Animations 55 images.Presets/ErrorEstimate 45 inverse.InverseRun 41 hostile.Measured 38 ui.FailingMemory 36
+  environment.VolumePhotons 29 environment.EnvironmentView 27)
 execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX REPLACE "#[^\n]*" "" lines "${lines}") # "# GetParam() = ..." may have brackets and semicolons
 string(REPLACE "\n" ";" lines "${lines}")
@@ -15,7 +20,13 @@ foreach(line IN LISTS lines)
     set(suite ${CMAKE_MATCH_1})
   elseif(suite AND line MATCHES "^  " AND NOT line MATCHES "^  DISABLED_" AND NOT suite MATCHES "(^|/)DISABLED_")
     add_test(${group}.${suite} ${program} --gtest_filter=${suite}.*)
-    set_tests_properties(${group}.${suite} PROPERTIES TIMEOUT 600 LABELS ${group})
+    set(cost 1)
+    list(FIND seconds ${group}.${suite} at)
+    if(NOT at EQUAL -1)
+      math(EXPR at "${at} + 1")
+      list(GET seconds ${at} cost)
+    endif()
+    set_tests_properties(${group}.${suite} PROPERTIES TIMEOUT 600 LABELS ${group} COST ${cost})
     set(suite "")
   endif()
 endforeach()

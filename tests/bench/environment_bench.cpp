@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -54,8 +55,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin)
 }
 
 /// change(preset, how far): what moves.
-template <class Change>
-void move(benchmark::State& state, const Change& change)
+void move(benchmark::State& state, const std::function<void(preset::Preset&, int)>& change)
 {
   static Bench bench;
   preset::Preset moved = bench.preset;
@@ -79,33 +79,19 @@ void move(benchmark::State& state, const Change& change)
   bench.job->adopt(bench.preset);
 }
 
-void camera_moves(benchmark::State& state)
-{
-  move(state, [](preset::Preset& p, int frame) { p.scene.camera.position[0] += 0.02 * (frame % 2 ? 1 : -1) * frame; });
-}
-void light_turns(benchmark::State& state)
-{
-  move(state, [](preset::Preset& p, int) { p.scene.environment->rotate_deg += 3; });
-}
-void object_turns(benchmark::State& state)
-{
-  move(state, [](preset::Preset& p, int) { p.scene.objects.front().transform.rotate_deg[1] += 3; });
-}
-void receiver_moves(benchmark::State& state)
-{
-  move(state, [](preset::Preset& p, int) { p.scene.objects.back().transform.translate[1] -= 0.01; });
-}
-/// The object before the last: a preset that is named should have one there.
-void occluder_moves(benchmark::State& state)
-{
-  move(state, [](preset::Preset& p, int) { p.scene.objects[p.scene.objects.size() - 2].transform.translate[2] += 0.1; });
-}
-
 // Processor time is that of all threads: half of it is what two quiet cores take at best.
-BENCHMARK(camera_moves)->Unit(benchmark::kMillisecond)->Iterations(8)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(light_turns)->Unit(benchmark::kMillisecond)->Iterations(8)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(object_turns)->Unit(benchmark::kMillisecond)->Iterations(8)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(receiver_moves)->Unit(benchmark::kMillisecond)->Iterations(8)->MeasureProcessCPUTime()->UseRealTime();
-BENCHMARK(occluder_moves)->Unit(benchmark::kMillisecond)->Iterations(8)->MeasureProcessCPUTime()->UseRealTime();
+[[maybe_unused]] const bool registered = [] {
+  using Preset = preset::Preset;
+  const std::pair<const char*, std::function<void(Preset&, int)>> changes[] = {
+      {"camera_moves", [](Preset& p, int frame) { p.scene.camera.position[0] += 0.02 * (frame % 2 ? 1 : -1) * frame; }},
+      {"light_turns", [](Preset& p, int) { p.scene.environment->rotate_deg += 3; }},
+      {"object_turns", [](Preset& p, int) { p.scene.objects.front().transform.rotate_deg[1] += 3; }},
+      {"receiver_moves", [](Preset& p, int) { p.scene.objects.back().transform.translate[1] -= 0.01; }},
+      // The object before the last: a preset that is named should have one there.
+      {"occluder_moves", [](Preset& p, int) { p.scene.objects[p.scene.objects.size() - 2].transform.translate[2] += 0.1; }}};
+  for (const auto& [name, change] : changes)
+    benchmark::RegisterBenchmark(name, move, change)->Unit(benchmark::kMillisecond)->Iterations(8)->MeasureProcessCPUTime()->UseRealTime();
+  return true;
+}();
 
 } // namespace

@@ -22,14 +22,23 @@ preset::Preset first_light()
   return p;
 }
 
+struct Bench {
+  explicit Bench(const preset::Preset& p)
+  {
+    const scene::Scene scene = scene::load_scene(p);
+    const scene::Bvh bvh = scene::build_bvh(scene.geometry);
+    job = spectral::make_job(p, scene, bvh, spectral::make_plan(p, scene, bvh), context);
+  }
+  const compute::Context context = compute::Context::open();
+  std::unique_ptr<job::Job> job;
+};
+
 /// Steps the preset's job for as long as the benchmark wants; `unit` counts what is done.
 template <class Count>
 void step_through(benchmark::State& state, const preset::Preset& p, const Count& count)
 {
-  const scene::Scene scene = scene::load_scene(p);
-  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const compute::Context context = compute::Context::open();
-  const auto job = spectral::make_job(p, scene, bvh, spectral::make_plan(p, scene, bvh), context);
+  const Bench bench(p);
+  job::Job* const job = bench.job.get();
   for (int warm_up = 0; warm_up < 20; ++warm_up) job->step();
   const double before = count(job->progress());
   for (auto _ : state) job->step();
@@ -68,10 +77,8 @@ void picture(benchmark::State& state)
   p.stop.passes = 8;
   using Smoothing = spectral::Settings::Smoothing;
   spectral::settings(p).smoothing = state.range(0) != 0 ? Smoothing::on : Smoothing::off;
-  const scene::Scene scene = scene::load_scene(p);
-  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const compute::Context context = compute::Context::open();
-  const auto job = spectral::make_job(p, scene, bvh, spectral::make_plan(p, scene, bvh), context);
+  const Bench bench(p);
+  job::Job* const job = bench.job.get();
   while (!job->finished()) job->step();
   for (auto _ : state) benchmark::DoNotOptimize(job->snapshot());
 }

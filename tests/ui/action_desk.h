@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A window in which every action can be possible, and three ways to press one: the command palette, its keys, its menu.
 #pragma once
-#include "seen_scene.h"
+#include "scenes.h"
 #include "ui/widgets/action.h"
 #include "window_fixture.h"
 
@@ -10,25 +10,17 @@
 
 namespace nephroid::test {
 
-class Desk : public WindowFixtureOf<SceneRuns> {
+class Desk : public HeadlessWindow<SceneRuns> {
 public:
   Desk()
   {
-    ImGui::GetIO().DisplaySize = {1300, 900};
+    resize({1300, 900});
     runs.steps = 1000000;
     runs.step_ms = 1;
     measured();
-    WindowFixtureOf::open(ball_text());
-    EXPECT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().seen<ui::SeenScene>() && workbench.run().error_history(); }));
+    open(ball_text());
+    EXPECT_TRUE(until([&] { return workbench.run().seen<ui::SeenScene>() && workbench.run().error_history(); }));
   }
-  void TestBody() override {}
-  using WindowFixtureOf::click;
-  using WindowFixtureOf::folder;
-  using WindowFixtureOf::frame;
-  using WindowFixtureOf::frames;
-  using WindowFixtureOf::runs;
-  using WindowFixtureOf::workbench;
-  using WindowFixtureOf::workspace;
 
   const preset::Preset& preset() const { return *workbench.preset(); }
   const preset::Scene& scene() const { return preset().scene; }
@@ -41,7 +33,7 @@ public:
   /// Another camera, as one edit.
   void edit(double z = 3)
   {
-    WindowFixtureOf::edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; });
+    HeadlessWindow::edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; });
     frames(4);
   }
   void look(ui::Look look) { apply(ui::command::SetLook{look}); }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Annealing" on real runs of engine 3: what it plots, which pictures it shows, and where a facet's light goes.
-#include "inverse_runs.h"
+#include "scenes.h"
 #include "ui/inverse/annealing/panel.h"
+#include "window_fixture.h"
 
 namespace nephroid::ui::annealing_panel_test {
 
@@ -34,8 +35,7 @@ protected:
 TEST_F(AnnealingPanelTest, EveryCurveOfTheRunIsPlottedLogOrLinear)
 {
   frames(3); // nothing is open
-  open(test::inverse_text(3));
-  finish();
+  run_through(test::inverse_text(3));
   ASSERT_THAT(panel().histories(), SizeIs(1));
   const HistoryLines& cost = panel().histories()[0];
   EXPECT_EQ(cost.x, "sweep");
@@ -79,8 +79,7 @@ TEST_F(AnnealingPanelTest, ALogAxisHasFourDecadesAtMost)
 
 TEST_F(AnnealingPanelTest, EveryReceiverHasItsPictures)
 {
-  open(test::inverse_text(2));
-  finish();
+  run_through(test::inverse_text(2));
   for (const char* name : {"target_1", "receiver_1", "difference_1", "target_2", "receiver_2", "difference_2", "slopes", "conflict"})
     EXPECT_GT(panel().area_of(name)[2], 50) << name;
   EXPECT_LT(panel().area_of("target_1")[1], panel().area_of("receiver_1")[1]);
@@ -91,8 +90,7 @@ TEST_F(AnnealingPanelTest, EveryReceiverHasItsPictures)
 TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
 {
   constexpr int facets = 24;
-  open(test::inverse_text(3, facets));
-  finish();
+  run_through(test::inverse_text(3, facets));
   EXPECT_FALSE(panel().beam());
   int x = 0, y = 0; // a facet whose light is on both receivers: it goes to the middle of the last
   while (std::abs(spot(x, y, facets, 200).x) + std::abs(spot(x, y, facets, 200).y) > 40) {
@@ -102,6 +100,10 @@ TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
   click_facet(x, y, facets);
   frames(2);
   ASSERT_TRUE(panel().beam());
+  int drawn = 0; // corners of the beam's frames and cells, whose colour is pictures.cpp's
+  for (const ImDrawList* list : ImGui::GetDrawData()->CmdLists)
+    drawn += static_cast<int>(std::ranges::count(list->VtxBuffer, IM_COL32(255, 176, 32, 255), &ImDrawVert::col));
+  EXPECT_GE(drawn, 8) << "on both receivers";
   const FacetBeam& beam = *panel().beam();
   EXPECT_EQ(beam.facet, glm::ivec2(x, y));
   const job::Picture& slopes = picture("slopes");
@@ -143,8 +145,7 @@ TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
 
 TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun)
 {
-  open(test::inverse_text(2));
-  finish();
+  run_through(test::inverse_text(2));
   const auto settings = [&]() -> const inverse::Settings& { return inverse::settings(*workbench.preset()); };
   const auto steps = [&] { return workbench.run().snapshot()->progress.step; };
   const auto done = [&] {
@@ -155,7 +156,7 @@ TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun)
     const auto at = panel().place_of(widget);
     ASSERT_TRUE(at) << widget;
     drag_between(*at, {(*at)[0] + by, (*at)[1]});
-    ASSERT_TRUE(test::eventually([&] { frame(); }, done));
+    ASSERT_TRUE(until(done));
   };
   const std::int64_t before = steps();
   drag("distance_2", 30);
@@ -178,10 +179,9 @@ TEST_F(AnnealingPanelTest, ADraggedDistanceOrWeightGoesOnInTheSameRun)
 // The preset of the finished object is of another engine: the View turns it, and this panel is gone.
 TEST_F(AnnealingPanelTest, TheFinishedObjectIsShownAsGlass)
 {
-  open(test::inverse_text(1));
-  finish();
+  run_through(test::inverse_text(1));
   click_widget("show as glass");
-  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.preset()->settings.engine() == "spectral"; }));
+  ASSERT_TRUE(until([&] { return workbench.preset()->settings.engine() == "spectral"; }));
   EXPECT_TRUE(std::filesystem::is_regular_file(folder.path() / "test-object" / "object.obj"));
   EXPECT_EQ(std::filesystem::weakly_canonical(workbench.preset()->source),
             std::filesystem::weakly_canonical(folder.path() / "test-object" / "view.json"));

@@ -9,7 +9,6 @@ namespace nephroid::ui::bookmarks_test {
 class Bookmarks : public test::WindowFixture {
 protected:
   const std::vector<Bookmark>& all() const { return workbench.chosen().bookmarks; }
-  const ViewPanel& view() const { return workspace.panel<ViewPanel>(); }
   void bookmark() { press(ImGuiKey_B, ImGuiMod_Ctrl); }
   void show_list()
   {
@@ -44,10 +43,7 @@ TEST_F(Bookmarks, KeepThePicturesSize)
 {
   open();
   bookmark();
-  preset::Preset edited = *workbench.preset();
-  edited.scene.camera.resolution = {32, 24};
-  edited.scene.camera.position = {1, 1, 4};
-  workbench.apply({command::Edit{"smaller", edited}});
+  edit([&](preset::Preset& p) { p.scene.camera.position = {1, 1, 4}, p.scene.camera.resolution = {32, 24}; });
   press(ImGuiKey_1, ImGuiMod_Ctrl);
   EXPECT_EQ(camera().position, (preset::Vec3{0, 0, 4}));
   EXPECT_EQ(camera().resolution, (std::array{32, 24}));

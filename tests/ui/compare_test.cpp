@@ -23,16 +23,14 @@ protected:
   }
   std::array<int, 3> first_texel() const
   {
-    const auto pixels = workspace.panel<ui::ViewPanel>().texture().pixels();
+    const auto pixels = view().texture().pixels();
     return {pixels[0], pixels[1], pixels[2]};
   }
 };
 
 TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
 {
-  measured();
-  open();
-  finish();
+  run_measured();
   press(ImGuiKey_P);
   ASSERT_THAT(workbench.comparing().pinned().all(), SizeIs(1));
   const PinnedRun pinned = workbench.comparing().pinned().all()[0];
@@ -41,7 +39,7 @@ TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
   EXPECT_EQ(pinned.picture->rgb[2], 4);
   runs.history = [](int steps) { return falling_history(steps, 0.005); }; // half the error
   change_camera(2);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
+  ASSERT_TRUE(until_current());
   finish();
   EXPECT_THAT(workspace.panel<ui::ErrorPanel>().contents().runs, SizeIs(2));
   EXPECT_EQ(workbench.comparing().pinned().all()[0].history, pinned.history);
@@ -67,18 +65,16 @@ TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
 
 TEST_F(CompareTest, FoldersAndTablesThatAreDroppedArePinned)
 {
-  measured();
-  open();
-  finish();
+  run_measured();
   folder.write("history.csv", measure::to_csv(*falling_history(7)));
   workbench.apply({command::Open{folder.path().string()}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().pinned().all().size() == 1; }));
+  ASSERT_TRUE(until([&] { return workbench.comparing().pinned().all().size() == 1; }));
   EXPECT_EQ(workbench.comparing().pinned().all()[0].history->rows.size(), 7u);
   EXPECT_EQ(workbench.preset()->name, "Test") << "the preset stays";
   frames(2);
   EXPECT_THAT(workspace.panel<ui::ErrorPanel>().contents().runs, SizeIs(2));
   workbench.apply({command::Open{folder.write("cut.csv", "seconds,wall_seconds,step,work,lab_mean\n1,1,1,1")}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.messages().size() == 1; }));
+  ASSERT_TRUE(until([&] { return workbench.messages().size() == 1; }));
   EXPECT_THAT(workbench.messages()[0].line, HasSubstr("cut.csv:2"));
   EXPECT_EQ(workbench.messages()[0].kind, ErrorKind::bad_input);
   EXPECT_THAT(workbench.comparing().pinned().all(), SizeIs(1));
@@ -92,7 +88,7 @@ TEST_F(CompareTest, PinsStandInTheOrderInWhichTheyWereNamed)
                     shorter = folder.write("shorter.csv", measure::to_csv(*falling_history(2)));
   workbench.apply({command::PinFile{longer}, command::PinFile{shorter}});
   const auto& pins = workbench.comparing().pinned();
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return pins.all().size() == 2; }));
+  ASSERT_TRUE(until([&] { return pins.all().size() == 2; }));
   EXPECT_EQ(pins.all()[0].name, "longer");
   EXPECT_EQ(pins.all()[1].name, "shorter");
 }
@@ -100,8 +96,7 @@ TEST_F(CompareTest, PinsStandInTheOrderInWhichTheyWereNamed)
 TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
 {
   give_reference({1, 0, 0});
-  open();
-  finish();
+  run_through();
   EXPECT_EQ(first_texel(), (std::array{0, 0, 255})) << "the camera at (0, 0, 4)";
   imgui.key(ImGuiKey_R, true);
   frame();
@@ -109,7 +104,7 @@ TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
   EXPECT_TRUE(imgui.pushed<command::Flip>()->on);
   frames(3);
   EXPECT_EQ(first_texel(), (std::array{255, 0, 0}));
-  EXPECT_EQ(workspace.panel<ui::ViewPanel>().shown().label, "Reference");
+  EXPECT_EQ(view().shown().label, "Reference");
   imgui.key(ImGuiKey_R, false);
   frames(2);
   EXPECT_FALSE(workbench.comparing().comparison().flip);
@@ -120,8 +115,7 @@ TEST_F(CompareTest, HoldingTheKeyFlipsToTheReference)
 TEST_F(CompareTest, KeysOfOneFrameDoNotUndoEachOther)
 {
   give_reference({1, 0, 0});
-  open();
-  finish();
+  run_through();
   imgui.key(ImGuiKey_R, true);
   frame();
   imgui.key(ImGuiKey_R, false); // a slow frame takes the release and the next key at once
@@ -136,8 +130,7 @@ TEST_F(CompareTest, KeysOfOneFrameDoNotUndoEachOther)
 TEST_F(CompareTest, AWindowThatLosesTheKeyboardFlipsBack)
 {
   give_reference({1, 0, 0});
-  open();
-  finish();
+  run_through();
   imgui.key(ImGuiKey_R, true);
   frames(2);
   EXPECT_TRUE(workbench.comparing().comparison().flip);
@@ -148,11 +141,10 @@ TEST_F(CompareTest, AWindowThatLosesTheKeyboardFlipsBack)
 
 TEST_F(CompareTest, FlipsToTheChosenPinnedRun)
 {
-  open();
-  finish();
+  run_through();
   press(ImGuiKey_P);
   change_camera(-1);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
+  ASSERT_TRUE(until_current());
   finish();
   EXPECT_EQ(first_texel(), (std::array{0, 0, 0}));
   press(ImGuiKey_N); // from the reference to the pinned run
@@ -160,7 +152,7 @@ TEST_F(CompareTest, FlipsToTheChosenPinnedRun)
   imgui.key(ImGuiKey_R, true);
   frames(2);
   EXPECT_EQ(first_texel(), (std::array{0, 0, 255}));
-  EXPECT_EQ(workspace.panel<ui::ViewPanel>().shown().label, "\"Test\"");
+  EXPECT_EQ(view().shown().label, "\"Test\"");
   imgui.key(ImGuiKey_R, false);
   frame();
   press(ImGuiKey_N);
@@ -169,8 +161,7 @@ TEST_F(CompareTest, FlipsToTheChosenPinnedRun)
 
 TEST_F(CompareTest, WithoutAReferenceTheActionsSayWhy)
 {
-  open();
-  finish();
+  run_through();
   EXPECT_FALSE(action("Flip").enabled(context()));
   EXPECT_FALSE(action("Difference").enabled(context()));
   EXPECT_THAT(action("Flip").why_not(context()), HasSubstr("the preset has no reference"));
@@ -185,15 +176,10 @@ TEST_F(CompareTest, WithoutAReferenceTheActionsSayWhy)
 TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
 {
   give_reference({0, 0, 3});
-  open();
-  finish();
+  run_through();
   press(ImGuiKey_D);
   workbench.apply({command::ShowDifference{true, measure::DifferenceMetric::absolute}});
-  ASSERT_TRUE(eventually([&] { frame(); },
-                         [&] {
-                           return workspace.panel<ui::ViewPanel>().shown().owner == workbench.comparing().difference() &&
-                                  workbench.comparing().difference();
-                         }));
+  ASSERT_TRUE(until([&] { return view().shown().owner == workbench.comparing().difference() && workbench.comparing().difference(); }));
   const auto map = workbench.comparing().difference();
   ASSERT_NE(map->values, nullptr);
   EXPECT_NEAR(map->values->at(0), 1.0 / 3, 1e-6) << "(|0| + |0| + |4 - 3|) / 3";
@@ -206,7 +192,7 @@ TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
   EXPECT_THAT(pixel_text(context(), {3, 2}), HasSubstr("|a - b| 0.3333"));
   // A fixed scale is another map of the same values, which are not computed again.
   workbench.apply({command::ShowDifference{true, measure::DifferenceMetric::absolute, 1.0 / 3}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().difference()->scale == 1.0 / 3; }));
+  ASSERT_TRUE(until([&] { return workbench.comparing().difference()->scale == 1.0 / 3; }));
   EXPECT_EQ(workbench.comparing().difference()->values, map->values);
   frame();
   EXPECT_NEAR(first_texel()[0], measure::map_colour(1)[0], 2);
@@ -219,44 +205,40 @@ TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
 TEST_F(CompareTest, EveryMetricHasADifference)
 {
   give_reference({0, 0, 3});
-  open();
-  finish();
+  run_through();
   for (std::size_t i = 0; i < measure::difference_names.size(); ++i) {
     const auto metric = static_cast<measure::DifferenceMetric>(i);
     workbench.apply({command::ShowDifference{true, metric}});
-    ASSERT_TRUE(eventually([&] { frame(); },
-                           [&] { return workbench.comparing().difference() && workbench.comparing().difference()->of.metric == metric; }));
+    ASSERT_TRUE(until([&] { return workbench.comparing().difference() && workbench.comparing().difference()->of.metric == metric; }));
     frame();
     EXPECT_EQ(workbench.comparing().difference()->error, "");
-    EXPECT_EQ(workspace.panel<ui::ViewPanel>().shown().hint, "");
+    EXPECT_EQ(view().shown().hint, "");
   }
 }
 
 TEST_F(CompareTest, PicturesOfOtherSizesAreSaidNotCompared)
 {
   give_reference({1, 0, 0}, 32, 32);
-  open();
-  finish();
+  run_through();
   EXPECT_THAT(workbench.comparing().why_not(), HasSubstr("32 x 32, the picture 64 x 48"));
   workbench.apply({command::ShowDifference{}});
   frames(5);
-  EXPECT_THAT(workspace.panel<ui::ViewPanel>().shown().hint, HasSubstr("32 x 32"));
+  EXPECT_THAT(view().shown().hint, HasSubstr("32 x 32"));
   EXPECT_EQ(workbench.comparing().difference(), nullptr);
   workbench.apply({command::Flip{}});
   frames(2);
-  EXPECT_THAT(workspace.panel<ui::ViewPanel>().shown().hint, HasSubstr("32 x 32"));
+  EXPECT_THAT(view().shown().hint, HasSubstr("32 x 32"));
   EXPECT_TRUE(action("Difference").why_not(context()).size() > 10);
 }
 
 TEST_F(CompareTest, APictureThatIsNotFiniteHasNoDifferenceAndSaysSo)
 {
   give_reference({0, std::numeric_limits<float>::quiet_NaN(), 0});
-  open();
-  finish();
+  run_through();
   workbench.apply({command::ShowDifference{}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().difference() != nullptr; }));
+  ASSERT_TRUE(until([&] { return workbench.comparing().difference() != nullptr; }));
   frame();
-  EXPECT_THAT(workspace.panel<ui::ViewPanel>().shown().hint, HasSubstr("reference.exr"));
+  EXPECT_THAT(view().shown().hint, HasSubstr("reference.exr"));
   EXPECT_TRUE(workbench.messages().empty());
 }
 

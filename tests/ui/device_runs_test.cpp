@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window's runs on a real device with kernels from a folder: a changed kernel is built and shown, a broken one is a message.
+// The window's runs on a real device: with kernels from a folder, where a changed one is built and shown and a broken one is a message; and
+// the scenes to begin with, each of which has a picture at once.
+#include "engine/engine.h"
 #include "fake_job.h"
 #include "ui/state/device_runs.h"
 
@@ -45,8 +47,7 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
   write("this is no kernel\n" + original);
   ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::failed; }));
   workbench.update();
-  ASSERT_EQ(workbench.messages().size(), 1u);
-  EXPECT_THAT(workbench.messages()[0].line, StartsWith("spectral/direct.cl:1: "));
+  EXPECT_THAT(only_message(workbench), StartsWith("spectral/direct.cl:1: "));
   EXPECT_EQ(sum(workbench.run().snapshot()), bright) << "the last picture stays";
 
   // Compiles again, and gives another picture: nothing is added to the film.
@@ -103,6 +104,23 @@ TEST_F(EngineTest, ALightIsChangedInAFinishedRunThatKeepsLayers)
   EXPECT_NEAR(sum(workbench.run().snapshot()) / bright, 3, 1e-4);
   EXPECT_EQ(workbench.run().snapshot()->progress.step, 2);
   EXPECT_EQ(workbench.run().status().generation, run);
+}
+
+TEST(NewScenesTest, EachIsDrawn)
+{
+  for (const engine::Engine* engine : engine::engines()) {
+    DeviceRuns runs({});
+    Workbench workbench(runs);
+    workbench.apply({command::New{engine->introduction.new_scene.preset}});
+    const auto brightness = [&] {
+      double all = 0;
+      if (workbench.run().snapshot())
+        for (const float value : workbench.run().snapshot()->picture->rgb) all += value;
+      return all;
+    };
+    EXPECT_TRUE(test::eventually([&] { workbench.update(); }, [&] { return brightness() > 0; })) << name_of(*engine);
+    EXPECT_TRUE(workbench.messages().empty()) << workbench.messages().front().line;
+  }
 }
 
 } // namespace nephroid::ui::device_runs_test

@@ -72,7 +72,7 @@ protected:
   void rest()
   {
     frames(2);
-    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return panel().model().rests(); }));
+    ASSERT_TRUE(until([&] { return panel().model().rests(); }));
     frames(2);
   }
   Point place(const std::string& widget) const
@@ -99,14 +99,13 @@ TEST_F(EnvironmentPanelTest, WithoutAnEnvironmentItSaysSo)
 
 TEST_F(EnvironmentPanelTest, OnlyPicturesOfABakeAreSaidToBeOfOne)
 {
-  const auto label = [&] { return workspace.panel<ViewPanel>().shown().label; };
-  open(text(""));
-  finish();
+  const auto label = [&] { return view().shown().label; };
+  run_through(text(""));
   frames(2);
   EXPECT_EQ(label(), "");
   runs.bakes = true;
   workbench.apply({command::Restart{}});
-  EXPECT_TRUE(test::eventually([&] { frame(); }, [&] { return label().find("baked") != std::string::npos; }));
+  EXPECT_TRUE(until([&] { return label().find("baked") != std::string::npos; }));
 }
 
 TEST_F(EnvironmentPanelTest, IsForPresetsThatHaveAnEnvironment)
@@ -318,7 +317,7 @@ TEST_F(EnvironmentPanelTest, WhatIsHiddenComesFromTheRun)
 {
   runs.lights = 24;
   open_map();
-  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return panel().figures().at(0).occluded.has_value(); }));
+  ASSERT_TRUE(until([&] { return panel().figures().at(0).occluded.has_value(); }));
   EXPECT_EQ(panel().figures().at(0).occluded, 0);
   EXPECT_EQ(panel().figures().at(1).occluded, 0.25);
   edit([&](preset::Preset& p) { environment::settings(p).lights = 12; });

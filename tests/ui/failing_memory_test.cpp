@@ -2,8 +2,7 @@
 // A device whose memory runs out in the middle of an edit: one line that names a buffer, the picture from before stays, the next edit
 // works. The OpenCL calls that fail are defined here, where the linker finds them before the real ones.
 #include "environment/settings.h"
-#include "fake_job.h"
-#include "inverse_runs.h"
+#include "scenes.h"
 #include "tests/support/process_state.h"
 #include "ui/state/device_runs.h"
 
@@ -44,17 +43,7 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
 
 using Edit = std::function<void(preset::Preset&)>;
 
-const std::string environment_text = R"({
-  "name": "Ball", "engine": "environment", "unit": "cm", "white": 10, "stop": {"passes": 2},
-  "scene": {
-    "camera": {"position": [4, 4, 4], "target": [0, -1, 0], "fov_deg": 34, "resolution": [32, 24]},
-    "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "floor": {"type": "diffuse", "reflectance": 0.8}},
-    "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 1}, "material": "glass"},
-                {"name": "floor", "shape": {"type": "quad", "size": [30, 1, 30]}, "material": "floor", "transform": {"translate": [0, -1.2, 0]}}],
-    "environment": {"type": "file", "file": ")" NEPHROID_SOURCE_DIR R"(/presets/spectral/three-lamps.hdr"}
-  },
-  "environment": {"photons": 2048, "spheres": 2, "resolution": 16}
-})";
+const std::string environment_text = test::lamps_text("[32, 24]", R"("photons": 2048, "spheres": 2, "resolution": 16)");
 
 class FailingMemory : public ::testing::Test {
 protected:
@@ -133,7 +122,7 @@ TEST_F(FailingMemory, SpectralRunsTakeOnALight)
 
 TEST_F(FailingMemory, EnvironmentRunsTakeOnAnEdit)
 {
-  open(environment_text);
+  open(environment_text, {"stop.passes=2"});
   for (const Edit& edit : std::initializer_list<Edit>{move_camera, [](preset::Preset& p) { p.scene.environment->rotate_deg += 40; },
                                                       [](preset::Preset& p) { p.scene.objects[1].transform.translate[1] -= 0.3; },
                                                       [](preset::Preset& p) { environment::settings(p).lights = 12; },
@@ -143,7 +132,7 @@ TEST_F(FailingMemory, EnvironmentRunsTakeOnAnEdit)
 
 TEST_F(FailingMemory, EnvironmentRunsAreMadeAnew)
 {
-  open(environment_text);
+  open(environment_text, {"stop.passes=2"});
   expect_it_survives([](preset::Preset& p) { environment::settings(p).spheres = 3; });
 }
 

@@ -135,4 +135,47 @@ public:
   std::atomic<bool> changed{false}, broken{false}, compiles{false}; ///< the kernels
 };
 
+/// The newest message's line; empty where there is none.
+inline std::string last_message(const ui::Workbench& workbench)
+{
+  return workbench.messages().empty() ? std::string() : workbench.messages().back().line;
+}
+/// The one message's line; where there are more, all of them.
+inline std::string only_message(const ui::Workbench& workbench)
+{
+  std::string lines;
+  for (const ui::Message& message : workbench.messages()) lines += (lines.empty() ? "" : " | ") + message.line;
+  return lines;
+}
+
+/// The workbench on fake jobs and the program's real worker thread, without a window.
+class WorkbenchFixture : public ::testing::Test {
+protected:
+  FakeRuns runs;
+  TemporaryFolder folder;
+  ui::Workbench workbench{runs};
+
+  bool until(const std::function<bool()>& done)
+  {
+    return eventually([&] { workbench.update(); }, done);
+  }
+  bool until(job::State state)
+  {
+    return until([&] { return workbench.run().status().state == state; });
+  }
+  /// Opens the preset and runs it to its end.
+  void run_through()
+  {
+    ASSERT_TRUE(workbench.open(folder.write("test.json", preset_text)));
+    ASSERT_TRUE(until(job::State::finished));
+  }
+  /// As a panel does; gesture and live: as command::Edit has them.
+  void edit(const std::function<void(preset::Preset&)>& change, std::uint64_t gesture = 0, bool live = false)
+  {
+    preset::Preset edited = *workbench.preset();
+    change(edited);
+    workbench.apply({ui::command::Edit{"edit", edited, gesture, live}});
+  }
+};
+
 } // namespace nephroid::test

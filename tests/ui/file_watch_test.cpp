@@ -1,20 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that other programs change while the window is open: the preset's own, and those that it names. Where a device was lost, it is
 // opened again.
+#include "fake_job.h"
 #include "ui/state/file_watch.h"
-#include "workbench_fixture.h"
 
 namespace nephroid::ui::file_watch_test {
 
 class FileWatchTest : public test::WorkbenchFixture {
 protected:
   std::string file = folder.write("test.json", test::preset_text);
+  const std::filesystem::path mesh = folder.path() / "a.obj";
   /// The preset's text with another seed.
   static std::string with_seed(int seed) { return "{\"seed\": " + std::to_string(seed) + ", " + std::string(test::preset_text).substr(1); }
   void open()
   {
+    runs.steps = 100000;
     ASSERT_TRUE(workbench.open(file));
     ASSERT_TRUE(until(job::State::running));
+    rest();
+  }
+  void open_mesh()
+  {
+    write_file_whole(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    open();
+    edit([](preset::Preset& preset) {
+      preset.scene.objects[0].shape.reset();
+      preset.scene.objects[0].mesh = "a.obj";
+    });
     rest();
   }
   /// As long as the watch takes to see everything.
@@ -27,7 +39,6 @@ protected:
 
 TEST_F(FileWatchTest, AChangedPresetIsTakenOverAndCanBeUndone)
 {
-  runs.steps = 100000;
   open();
   write_file_whole(file, with_seed(77));
   ASSERT_TRUE(until([&] { return workbench.preset()->seed == 77; }));
@@ -52,7 +63,6 @@ TEST_F(FileWatchTest, WhatIsWrittenBetweenReadingAndTheFirstLookIsSeen)
 
 TEST_F(FileWatchTest, EditsThatAreNotSavedAreKept)
 {
-  runs.steps = 100000;
   open();
   edit([](preset::Preset& preset) { preset.seed = 5; });
   write_file_whole(file, with_seed(77));
@@ -67,7 +77,6 @@ TEST_F(FileWatchTest, EditsThatAreNotSavedAreKept)
 
 TEST_F(FileWatchTest, WhatTheWindowSavesItselfIsNoChange)
 {
-  runs.steps = 100000;
   open();
   edit([](preset::Preset& preset) { preset.seed = 5; });
   workbench.apply({command::SavePreset{file}});
@@ -79,7 +88,6 @@ TEST_F(FileWatchTest, WhatTheWindowSavesItselfIsNoChange)
 
 TEST_F(FileWatchTest, WhatIsOpenedAfterAChangeIsNotSaidToBeChanged)
 {
-  runs.steps = 100000;
   open();
   write_file_whole(file, with_seed(77));
   ASSERT_TRUE(workbench.open(file));
@@ -91,7 +99,6 @@ TEST_F(FileWatchTest, WhatIsOpenedAfterAChangeIsNotSaidToBeChanged)
 
 TEST_F(FileWatchTest, ABrokenPresetIsSaidAndNothingIsLost)
 {
-  runs.steps = 100000;
   open();
   write_file_whole(file, "{\"scene\": ");
   ASSERT_TRUE(until([&] { return !workbench.messages().empty(); }));
@@ -101,14 +108,7 @@ TEST_F(FileWatchTest, ABrokenPresetIsSaidAndNothingIsLost)
 
 TEST_F(FileWatchTest, AFileThatThePresetNamesStartsTheRunAgain)
 {
-  runs.steps = 100000;
-  const std::string mesh = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  open();
-  edit([](preset::Preset& preset) {
-    preset.scene.objects[0].shape.reset();
-    preset.scene.objects[0].mesh = "a.obj";
-  });
-  rest();
+  open_mesh();
   const int made = runs.made, reread = runs.reread;
   write_file_whole(mesh, "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
   EXPECT_TRUE(until([&] { return runs.made > made; }));
@@ -121,14 +121,7 @@ TEST_F(FileWatchTest, AFileThatThePresetNamesStartsTheRunAgain)
 
 TEST_F(FileWatchTest, ABrokenPresetHidesNoOtherFile)
 {
-  runs.steps = 100000;
-  const std::string mesh = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  open();
-  edit([](preset::Preset& preset) {
-    preset.scene.objects[0].shape.reset();
-    preset.scene.objects[0].mesh = "a.obj";
-  });
-  rest();
+  open_mesh();
   const int reread = runs.reread;
   write_file_whole(file, "{\"scene\": ");
   write_file_whole(mesh, "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");

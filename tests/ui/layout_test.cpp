@@ -16,6 +16,12 @@ protected:
     settings.engines["spectral"].ini = ini;
     workbench.set_settings(settings);
   }
+  void open_palette()
+  {
+    open();
+    workbench.apply({command::Ask{Question::command}});
+    frames(3);
+  }
   /// Another engine's preset, and back.
   void leave_and_come_back()
   {
@@ -171,9 +177,7 @@ TEST_F(LayoutTest, AnImpossibleSizeOfTextStaysAtTheEnd)
 
 TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
 {
-  open();
-  workbench.apply({command::Ask{Question::command}});
-  frames(3);
+  open_palette();
   EXPECT_EQ(workspace.palette().matches().size(), actions().size() + preset::shipped_presets().size());
   type("brigh");
   ASSERT_FALSE(workspace.palette().matches().empty());
@@ -186,9 +190,7 @@ TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
 
 TEST_F(LayoutTest, TheArrowsChooseInThePalette)
 {
-  open();
-  workbench.apply({command::Ask{Question::command}});
-  frames(3);
+  open_palette();
   type("er text");
   ASSERT_EQ(workspace.palette().matches().size(), 2u);
   const std::string second = workspace.palette().matches()[1]->name;
@@ -204,22 +206,17 @@ TEST_F(LayoutTest, TheArrowsChooseInThePalette)
 
 TEST_F(LayoutTest, ThePaletteSaysWhyNot)
 {
-  open();
-  workbench.apply({command::Ask{Question::command}});
-  frames(3);
+  open_palette();
   type("compare with the next");
   press(ImGuiKey_Enter);
   frames(1);
-  ASSERT_EQ(workbench.messages().size(), 1u);
-  EXPECT_EQ(workbench.messages()[0].line, "Compare with the next: no run is pinned");
+  EXPECT_EQ(only_message(workbench), "Compare with the next: no run is pinned");
 }
 
 TEST_F(LayoutTest, EscapeClosesThePaletteAndNotTheRun)
 {
   runs.steps = 100000;
-  open();
-  workbench.apply({command::Ask{Question::command}});
-  frames(3);
+  open_palette();
   press(ImGuiKey_Escape);
   frames(2);
   EXPECT_EQ(workbench.question(), Question::none);

@@ -12,12 +12,7 @@ namespace nephroid::ui::looks_test {
 
 class LooksTest : public test::WindowFixtureOf<test::LayeredRuns> {
 protected:
-  void SetUp() override
-  {
-    open();
-    finish();
-  }
-  const ViewPanel& view() { return workspace.panel<ViewPanel>(); }
+  void SetUp() override { run_through(); }
   std::array<int, 3> texel(int x, int y)
   {
     const auto pixels = view().texture().pixels().subspan(4 * static_cast<std::size_t>(64 * y + x));
@@ -31,7 +26,7 @@ protected:
   {
     const std::filesystem::path file = folder.path() / name;
     workbench.apply({command::SavePicture{file}});
-    EXPECT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
+    EXPECT_TRUE(until_files_are_done());
     return image::read_image(file);
   }
   /// The picture's file holds what the texture shows.
@@ -106,8 +101,7 @@ TEST_F(LooksTest, ARangeIsTyped)
   EXPECT_EQ(*look().false_colour, (LuminanceRange{0.5, 50}));
   type("low", "60");
   EXPECT_EQ(*look().false_colour, (LuminanceRange{0.5, 50})) << "the low end is not above the high one";
-  ASSERT_THAT(workbench.messages(), SizeIs(1));
-  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("0 < low < high"));
+  EXPECT_THAT(only_message(workbench), HasSubstr("0 < low < high"));
 }
 
 TEST_F(LooksTest, RangesThatAreNoneAreNotTaken)
@@ -151,9 +145,7 @@ TEST_F(LooksTest, FalseColourIsInWattsWhateverTheExposure)
   frames(2);
   EXPECT_EQ(look().exposure_stops, 0.5);
   EXPECT_EQ(texel(32, 12), before);
-  preset::Preset edited = *workbench.preset();
-  edited.white = 2; // the same numbers are twice the light
-  workbench.apply({command::Edit{"white", edited}});
+  edit([&](preset::Preset& p) { p.white = 2; }); // the same numbers are twice the light
   frames(3);
   const Rgb8 wanted = luminance_colour(2 * 0.704875, {0.1, 10});
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(texel(32, 12)[c], wanted[c], 2);
@@ -182,11 +174,11 @@ TEST_F(LooksTest, PicturesAreSavedAsShown)
   press(ImGuiKey_T);
   frame();
   expect_saved_as_shown("filmic.png");
-  EXPECT_THAT(workbench.messages().back().line, HasSubstr("filmic"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("filmic"));
   press(ImGuiKey_T);
   frame();
   expect_saved_as_shown("false.png");
-  EXPECT_THAT(workbench.messages().back().line, HasSubstr("W/m2/sr"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("W/m2/sr"));
   EXPECT_THAT(saved("linear.exr").channels, SizeIs(9)) << "the whole picture with both layers, whatever is shown";
 }
 
@@ -196,10 +188,9 @@ TEST_F(LooksTest, ALayerThatThePictureDoesNotHaveIsSaid)
   frames(2);
   EXPECT_THAT(view().shown().hint, HasSubstr("has no layer \"indirect\", only direct, caustic"));
   workbench.apply({command::SavePicture{folder.path() / "none.png"}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
+  ASSERT_TRUE(until_files_are_done());
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.png"));
-  ASSERT_FALSE(workbench.messages().empty());
-  EXPECT_THAT(workbench.messages().back().line, HasSubstr("nothing to save"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("nothing to save"));
   press(ImGuiKey_L);
   EXPECT_EQ(layer(), "direct");
 }
@@ -240,12 +231,12 @@ TEST_F(LooksWithReference, TheDifferenceIsThatOfTheLayer)
 {
   workbench.apply({command::ShowLayer{"caustic"}, command::ShowDifference{true, measure::DifferenceMetric::absolute}});
   const auto at = [&] { return (*workbench.comparing().difference()->values)[64 * 12 + 32]; };
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.comparing().difference() != nullptr; }));
+  ASSERT_TRUE(until([&] { return workbench.comparing().difference() != nullptr; }));
   EXPECT_NEAR(at(), 0.25 / 3, 1e-6) << "(.5, .25, 0) - (.5, 0, 0)";
   frames(2);
   expect_saved_as_shown("difference.png");
   workbench.apply({command::ShowLayer{}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return at() > 0.2; }));
+  ASSERT_TRUE(until([&] { return at() > 0.2; }));
   EXPECT_NEAR(at(), (0.25 + 0.25 + 0.875) / 3, 1e-6) << "(.75, .75, .125) - (1, 1, 1)";
 }
 

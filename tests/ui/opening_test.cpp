@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening files in the window: what it asks before unsaved changes go, and what it says about files that are no preset.
-#include "headless.h"
-#include "workbench_fixture.h"
+// Opening files in the window: what it asks before unsaved changes go, what it says about files that are no preset. What becomes of
+// pictures and meshes that are dropped on it, and that nothing does of what is none.
+#include "fake_job.h"
+#include "inverse/settings.h"
+#include "tests/support/errors.h"
+#include "tests/support/loaded_scenes.h"
+#include "window_fixture.h"
 
 namespace nephroid::ui::opening_test {
 
@@ -90,25 +94,18 @@ TEST_F(OpeningTest, WhatCannotBeOpenedAsksNothing)
 
 TEST_F(OpeningTest, TheDialogSavesAndOpens)
 {
-  test::Headless imgui;
-  Workspace workspace;
-  open_and_edit();
-  workbench.apply({command::Open{second}});
-  const auto frame = [&] { imgui.frame(workspace, workbench); };
-  for (int i = 0; i < 3; ++i) frame();
-  const auto press = [&](ImGuiKey key) {
-    imgui.key(key, true);
-    frame();
-    imgui.key(key, false);
-    frame();
-  };
+  test::HeadlessWindow<> window;
+  window.open_file(first);
+  window.edit([](preset::Preset& p) { p.scene.camera.position = {0, 0, 2}; });
+  window.workbench.apply({command::Open{second}});
+  window.frames(3);
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-  press(ImGuiKey_Tab); // to the first button
-  press(ImGuiKey_Space);
-  for (int i = 0; i < 3; ++i) frame();
-  EXPECT_EQ(workbench.preset()->name, "Second");
+  window.press(ImGuiKey_Tab); // to the first button
+  window.press(ImGuiKey_Space);
+  window.frames(3);
+  EXPECT_EQ(window.workbench.preset()->name, "Second");
   EXPECT_EQ(preset::read_preset(first).scene.camera.position[2], 2) << "saved";
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(window.workbench.question(), Question::none);
 }
 
 TEST_F(OpeningTest, AMapBecomesTheEnvironment)
@@ -145,8 +142,7 @@ TEST_F(OpeningTest, AMapThatThePresetCannotHaveIsRefused)
   ASSERT_TRUE(workbench.open(folder.write("inverse.json", R"({"engine": "inverse", "inverse": {"receivers": [
     {"distance_mm": 100, "picture": {"type": "disc", "radius": 0.3}}]}})")));
   workbench.apply({command::Open{folder.write("hall.hdr", "")}});
-  ASSERT_EQ(workbench.messages().size(), 1u);
-  EXPECT_THAT(workbench.messages()[0].line, ::testing::HasSubstr("environment"));
+  EXPECT_THAT(only_message(workbench), ::testing::HasSubstr("environment"));
   EXPECT_TRUE(workbench.messages()[0].error);
   EXPECT_FALSE(workbench.edits()->modified());
 }
@@ -155,8 +151,7 @@ TEST_F(OpeningTest, FilesDroppedTogetherKeepTheirMessages)
 {
   workbench.apply({command::Open{folder.write("ball.obj", "v 0 0 0\n")}, command::Open{first}});
   EXPECT_EQ(workbench.preset()->name, "Test");
-  ASSERT_EQ(workbench.messages().size(), 1u);
-  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("is a mesh"));
+  EXPECT_THAT(only_message(workbench), HasSubstr("is a mesh"));
   workbench.apply({command::Open{first}});
   EXPECT_TRUE(workbench.messages().empty()) << "an earlier error is over";
 }
@@ -184,6 +179,176 @@ TEST_F(OpeningTest, LeavesPresetsToTheReader)
   EXPECT_EQ(refusal(folder.write("broken.json", "]")), "") << "the reader names line and column";
   EXPECT_EQ(refusal(folder.write("preset.txt", " \n{}")), "");
   EXPECT_EQ(refusal(folder.write("empty", "")), "");
+}
+
+class DroppedPicture : public test::WorkbenchFixture {
+protected:
+  const std::vector<inverse::Receiver>& receivers() const { return workbench.preset()->settings.as<inverse::Settings>().receivers; }
+  std::string picture = folder.write("face.png", "a run reads it");
+};
+
+TEST_F(DroppedPicture, TakesThePlaceOfTheDrawingsOneAfterTheOther)
+{
+  ASSERT_TRUE(workbench.open("inverse/shapes"));
+  const std::vector<inverse::Receiver> before = receivers();
+  ASSERT_EQ(before.size(), 3u);
+  const std::string opened = preset::to_json(*workbench.preset());
+  workbench.apply({command::Open{picture}});
+  EXPECT_EQ(receivers()[0].picture.file, picture);
+  EXPECT_EQ(receivers()[0].distance_mm, before[0].distance_mm);
+  EXPECT_EQ(receivers()[1], before[1]);
+  const std::string other = folder.write("other.JPG", "");
+  workbench.apply({command::Open{other}});
+  EXPECT_EQ(receivers()[0].picture.file, picture);
+  EXPECT_EQ(receivers()[1].picture.file, other);
+  workbench.apply({command::Undo{}, command::Undo{}});
+  EXPECT_EQ(preset::to_json(*workbench.preset()), opened);
+}
+
+TEST_F(DroppedPicture, ThatIsNotThereChangesNothing)
+{
+  ASSERT_TRUE(workbench.open("inverse/shapes"));
+  workbench.apply({command::Open{(folder.path() / "gone.png").string()}});
+  EXPECT_THAT(last_message(workbench), ::testing::HasSubstr("there is no such picture"));
+  EXPECT_FALSE(workbench.edits()->modified());
+}
+
+TEST_F(DroppedPicture, SaysWhatToDoWithItElsewhere)
+{
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  workbench.apply({command::Open{picture}});
+  EXPECT_THAT(last_message(workbench), ::testing::HasSubstr("is a picture"));
+  EXPECT_THAT(last_message(workbench), ::testing::HasSubstr("engine inverse"));
+  EXPECT_FALSE(workbench.edits()->modified());
+}
+
+/// A closed tetrahedron with edges of 10 along the axes, its corner at (100, 0, 0).
+constexpr const char* tetrahedron = "v 100 0 0\nv 110 0 0\nv 100 10 0\nv 100 0 10\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+class DroppedMeshTest : public test::WorkbenchFixture {
+protected:
+  void SetUp() override { ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text))); }
+  std::string write(const std::string& name, const std::string& text) { return folder.write(name, text); }
+  void drop(const std::string& file)
+  {
+    workbench.apply({command::Open{file}});
+    ASSERT_TRUE(until([&] { return !workbench.works_on_files(); }));
+    workbench.update();
+  }
+  std::string only_error() const
+  {
+    std::string line;
+    for (const Message& message : workbench.messages())
+      if (message.error) line += (line.empty() ? "" : " | ") + message.line;
+    return line;
+  }
+};
+
+TEST_F(DroppedMeshTest, IsAnObjectWhereTheCameraLooks)
+{
+  drop(write("thing.obj", tetrahedron));
+  EXPECT_EQ(only_error(), "");
+  const preset::Preset& preset = *workbench.preset();
+  ASSERT_EQ(preset.scene.objects.size(), 2U);
+  const preset::Object& object = preset.scene.objects[1];
+  EXPECT_EQ(object.name, "thing");
+  EXPECT_EQ(object.material, "wall") << "there is no dielectric";
+  // The camera sees 2 * 4 * tan(20 degrees) = 2.91 at its target; 0.4 of that.
+  const auto [low, high] = test::world_bounds(scene::load_scene(preset), 1);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(high[i] - low[i], 0.4 * 2.9118, 0.01);
+    EXPECT_NEAR(high[i] + low[i], 0, 0.002) << "its middle is at the camera's target";
+  }
+  EXPECT_EQ(workbench.edits()->undo_label(), "add thing.obj");
+  EXPECT_EQ(workbench.chosen().selection, (Selection{Selection::Kind::object, 1}));
+  EXPECT_THAT(last_message(workbench), HasSubstr("the object 'thing' of 'wall'"));
+  workbench.apply({command::Undo{}});
+  EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
+  EXPECT_EQ(in_preset(workbench.chosen().selection, workbench.preset()), Selection{});
+}
+
+TEST_F(DroppedMeshTest, IsOfTheFirstGlassAndOfAnotherName)
+{
+  preset::Preset edited = *workbench.preset();
+  edited.scene.materials["zircon"].type = preset::Material::Type::dielectric;
+  edited.scene.objects[0].name = "thing";
+  workbench.apply({command::Edit{"edit", edited}});
+  drop(write("thing.obj", tetrahedron));
+  ASSERT_EQ(workbench.preset()->scene.objects.size(), 2U);
+  EXPECT_EQ(workbench.preset()->scene.objects[1].material, "zircon");
+  EXPECT_EQ(workbench.preset()->scene.objects[1].name, "thing 2");
+}
+
+TEST_F(DroppedMeshTest, GetsGlassWhereThereIsNoMaterial)
+{
+  preset::Preset edited = *workbench.preset();
+  edited.scene.objects.clear();
+  edited.scene.materials.clear();
+  workbench.apply({command::Edit{"edit", edited}});
+  drop(write("thing.obj", tetrahedron));
+  ASSERT_EQ(workbench.preset()->scene.objects.size(), 1U);
+  EXPECT_EQ(workbench.preset()->scene.materials.at("glass").type, preset::Material::Type::dielectric);
+}
+
+TEST_F(DroppedMeshTest, CanBeSavedAndOpened)
+{
+  drop(write("thing.obj", tetrahedron));
+  const std::string file = (folder.path() / "saved.json").string();
+  workbench.apply({command::SavePreset{file}});
+  EXPECT_EQ(preset::read_preset(file).scene, workbench.preset()->scene);
+}
+
+TEST_F(DroppedMeshTest, BrokenOnesChangeNothing)
+{
+  const std::string bad[][2] = {{"empty.obj", ""},
+                                {"no-face.obj", "v 0 0 0\nv 1 0 0\n"},
+                                {"flat.obj", "v 0 0 0\nf 1 1 1\n"},
+                                {"words.stl", "this is no mesh"},
+                                {"nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}};
+  for (const auto& [name, text] : bad) {
+    drop(write(name, text));
+    EXPECT_THAT(only_error(), HasSubstr(name));
+    EXPECT_EQ(only_error().find(" | "), std::string::npos) << "one message: " << only_error();
+    EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
+    for (const Message& message : std::vector(workbench.messages())) workbench.apply({command::Dismiss{message.id}});
+  }
+  drop((folder.path() / "vanished.ply").string());
+  EXPECT_THAT(only_error(), HasSubstr("vanished.ply"));
+  EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
+}
+
+TEST_F(DroppedMeshTest, OpenOnesAreRefusedWhereThePresetSaysSo)
+{
+  const std::string file = write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  preset::Preset edited = *workbench.preset();
+  edited.scene.materials["glass"].type = preset::Material::Type::dielectric;
+  workbench.apply({command::Edit{"edit", edited}});
+  drop(file);
+  ASSERT_EQ(workbench.preset()->scene.objects.size(), 2U);
+  EXPECT_THAT(last_message(workbench), HasSubstr("it is not closed"));
+  workbench.apply({command::Undo{}});
+  edited.scene.damaged_meshes = preset::Scene::DamagedMeshes::refuse;
+  workbench.apply({command::Edit{"refuse", edited}});
+  drop(file);
+  EXPECT_THAT(only_error(), HasSubstr("not closed"));
+  EXPECT_EQ(workbench.preset()->scene.objects.size(), 1U);
+}
+
+TEST_F(DroppedMeshTest, OnAnInversePresetIsRefused)
+{
+  ASSERT_TRUE(workbench.open("inverse/point"));
+  workbench.apply({command::Open{write("thing.obj", tetrahedron)}});
+  EXPECT_THAT(only_error(), HasSubstr("is a mesh"));
+  EXPECT_FALSE(workbench.works_on_files());
+}
+
+TEST_F(DroppedMeshTest, ForAPresetThatIsGoneIsForgotten)
+{
+  const std::string file = write("thing.obj", tetrahedron);
+  workbench.apply({command::Open{file}});
+  ASSERT_TRUE(workbench.open("spectral/prism"));
+  ASSERT_TRUE(until([&] { return !workbench.works_on_files(); }));
+  EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
 }
 
 } // namespace nephroid::ui::opening_test

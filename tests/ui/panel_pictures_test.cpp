@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of docs/window-panels.md: the panels "Dispersion" and "Spectra" beside a picture that follows them, while real X
-// events drag a control point and choose another light. With the folder docs in NEPHROID_PICTURES they are written there. What they
-// are to show is tested all the same. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
+// The pictures of docs/window-panels.md and docs/window.md: panels beside a picture that follows them, while real X events drag a control
+// point, choose another light, drag a ball by its arrow. With the folder docs in NEPHROID_PICTURES they are written there. What they are to
+// show is tested all the same. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
 #include "optics/dispersion.h"
-#include "places.h"
 #include "real_window.h"
-#include "spectra_scene.h"
+#include "scenes.h"
 #include "ui/spectral/dispersion/panel.h"
 #include "ui/spectral/spectra/panel.h"
+#include "window_fixture.h"
 
 namespace nephroid::ui::panel_pictures_test {
 
-constexpr std::array<int, 2> size{1200, 720};
+constexpr std::array<int, 2> size{1200, 720}, tall{1200, 900};
 
-class PanelPictures : public test::RealWindow {
+class PanelPictures : public test::PicturedWindow {
 protected:
-  PanelPictures() : RealWindow({"Xvfb", "xdotool", "import", "convert"}) {}
   /// Newton's prism, of N-SF66 as control points, and a board of which one half is painted. It is not over before its pictures are taken.
   static preset::Preset prism()
   {
@@ -58,34 +57,26 @@ protected:
     return begun;
   }
   /// A picture of the window as soon as it satisfies a condition. Where pictures are asked for it is taken when the run has had some
-  /// seconds more and is kept, with 256 colours, which is a fifth of its bytes.
+  /// seconds more and is kept.
   template <class Condition>
   image::Image taken(const test::PlayedWindow& window, const std::string& name, const std::string& what, Condition condition) const
   {
     image::Image picture;
     window.until(what, [&] { return condition(picture = window.picture(name)); });
-    const char* kept = std::getenv("NEPHROID_PICTURES");
-    if (!kept) return picture;
+    if (!std::getenv("NEPHROID_PICTURES")) return picture;
     std::this_thread::sleep_for(std::chrono::seconds(8));
     picture = window.picture(name);
-    const std::string command = fmt::format("convert '{}' +dither -colors 256 'png8:{}/{}'", (folder.path() / name).string(), kept, name);
-    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    keep_for_docs(folder.path() / name);
     return picture;
   }
 };
 
 /// Clicks in a window like the real one; where that was.
-template <class Draw>
-test::Pixel click(const std::array<double, 2>& place, test::Headless& imgui, Draw draw)
+test::Pixel click(const Point& place, test::HeadlessWindow<test::SceneRuns>& like)
 {
-  const test::Pixel at = pixel(place);
-  imgui.move(at[0], at[1]);
-  for (const bool down : {true, false}) {
-    draw();
-    imgui.button(0, down);
-  }
-  for (int i = 0; i < 4; ++i) draw();
-  return at;
+  like.click(place);
+  like.frames(3);
+  return pixel(place);
 }
 
 /// Colours of the strip of clusters at the foot of the plot, from 380 to 780 nm.
@@ -144,14 +135,12 @@ TEST_F(PanelPictures, AControlPointIsDragged)
 {
   const preset::Preset preset = prism();
   const std::string file = folder.write("prism.json", preset::to_json(preset));
-  std::array<test::Pixel, 2> way;
-  const auto [plot, canvas] = in_window_like(size, "dispersion", file, [&](const Workspace& workspace, auto&, auto) {
-    const std::vector<ControlPoint> points = sorted_points(preset.scene.materials.at("glass").dispersion);
-    const ControlPoint point = points[points.size() / 2];
-    way = {pixel(workspace.panel<ui::DispersionPanel>().plot().to_screen(point)),
-           pixel(workspace.panel<ui::DispersionPanel>().plot().to_screen({point[0] + 20, point[1] + 0.055}))};
-    return std::pair(workspace.panel<ui::DispersionPanel>().plot(), workspace.panel<ui::ViewPanel>().canvas());
-  });
+  const test::HeadlessWindow<> like(size, "dispersion", file);
+  const DispersionPlot& plot = like.workspace.panel<DispersionPanel>().plot();
+  const Canvas& canvas = like.view().canvas();
+  const std::vector<ControlPoint> points = sorted_points(preset.scene.materials.at("glass").dispersion);
+  const ControlPoint point = points[points.size() / 2];
+  const std::array way{pixel(plot.to_screen(point)), pixel(plot.to_screen({point[0] + 20, point[1] + 0.055}))};
   test::PlayedWindow window = open(file, "dispersion");
   const auto before = strip(taken(window, "window-dispersion.png", "a picture of the run", picture_in(canvas)), plot);
   EXPECT_GT(count(before), 24u);
@@ -175,17 +164,13 @@ TEST_F(PanelPictures, AnotherLightIsChosen)
   spectral::settings(preset).relight = true;
   const std::string file = folder.write("prism.json", preset::to_json(preset));
   const std::string found = "illuminant", field = "/scene/lights/0/spectrum/illuminant";
-  test::Pixel search, box, other;
-  const Canvas canvas =
-      in_window_like<test::SeeingRuns>(size, "spectra", file, [&](const Workspace& workspace, test::Headless& imgui, auto draw) {
-        const auto field_at = [&](const std::string& widget) { return workspace.panel<ui::ParametersPanel>().place_of(widget).value(); };
-        search = click(field_at("search"), imgui, draw);
-        ImGui::GetIO().AddInputCharactersUTF8(found.c_str());
-        for (int i = 0; i < 3; ++i) draw();
-        box = click(field_at(field), imgui, draw);
-        other = pixel(field_at(field + ":A"));
-        return workspace.panel<ui::ViewPanel>().canvas();
-      });
+  test::HeadlessWindow<test::SceneRuns> like(size, "spectra", file);
+  const Canvas& canvas = like.view().canvas();
+  const auto field_at = [&](const std::string& widget) { return like.workspace.panel<ParametersPanel>().place_of(widget).value(); };
+  const test::Pixel search = click(field_at("search"), like);
+  like.type(found);
+  like.frame();
+  const test::Pixel box = click(field_at(field), like), other = pixel(field_at(field + ":A"));
   test::PlayedWindow window = open(file, "spectra");
   const image::Image before = taken(window, "window-spectra.png", "a picture of the run", picture_in(canvas));
   window.click(search);
@@ -205,23 +190,16 @@ TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
 {
   const std::string file = folder.write("prism.json", preset::to_json(prism()));
   const std::string wrong = "200", field = "/scene/camera/fov_deg";
+  test::HeadlessWindow<test::SceneRuns> like(size, "parameters", file);
+  const Canvas& canvas = like.view().canvas();
+  const auto place_of = [&](const std::string& widget) { return like.workspace.panel<ParametersPanel>().place_of(widget).value(); };
   std::vector<test::Pixel> way;
-  test::Pixel said;
-  const Canvas canvas =
-      in_window_like<test::SeeingRuns>(size, "parameters", file, [&](const Workspace& workspace, test::Headless& imgui, auto draw) {
-        const auto place_of = [&](const std::string& widget) { return workspace.panel<ui::ParametersPanel>().place_of(widget).value(); };
-        for (const std::string& widget : {std::string("/scene:label"), std::string("/scene/camera:label"), field})
-          way.push_back(click(place_of(widget), imgui, draw));
-        ImGui::GetIO().AddInputCharactersUTF8(wrong.c_str());
-        draw();
-        for (const bool down : {true, false}) {
-          imgui.key(ImGuiKey_Enter, down);
-          draw();
-        }
-        for (int i = 0; i < 4; ++i) draw(); // it is brought into sight
-        said = pixel(place_of(field + ":problem"));
-        return workspace.panel<ui::ViewPanel>().canvas();
-      });
+  for (const std::string& widget : {std::string("/scene:label"), std::string("/scene/camera:label"), field})
+    way.push_back(click(place_of(widget), like));
+  like.type(wrong);
+  like.press(ImGuiKey_Enter);
+  like.frames(4); // it is brought into sight
+  const test::Pixel said = pixel(place_of(field + ":problem"));
   test::PlayedWindow window = open(file, "parameters");
   window.until("a picture of the run", [&] { return picture_in(canvas)(window.picture("before.png")); });
   for (const test::Pixel& at : way) window.click(at);
@@ -239,6 +217,73 @@ TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
   EXPECT_EQ(runs_begun(window), 1) << "the run goes on";
   EXPECT_EQ(window.quit().exit_code, 0);
   EXPECT_EQ(preset::read_preset(file).scene.camera.fov_deg, 34);
+}
+
+constexpr double right_by = 0.8; ///< metres
+
+/// A glass ball over a floor, seen from above its side, so that no axis is straight across the picture.
+constexpr const char* scene_text = R"({
+  "name": "Handles", "engine": "spectral", "unit": "m", "white": 1.5,
+  "scene": {
+    "camera": {"position": [1.5, 2.2, 5], "target": [0, 0.4, 0], "fov_deg": 40, "resolution": [480, 360]},
+    "materials": {"glass": {"type": "dielectric", "dispersion": 1.5}, "floor": {"type": "diffuse", "reflectance": 0.8}},
+    "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.5}, "material": "glass", "transform": {"translate": [-0.7, 0.6, 0]}},
+                {"name": "floor", "shape": {"type": "quad", "size": [6, 1, 6]}, "material": "floor"}],
+    "lights": [{"type": "spot", "power_w": 40, "position": [0.6, 1.7, -1], "direction": [-0.75, -1, 0.5], "half_angle_deg": 40},
+               {"type": "area", "power_w": 30, "position": [-1.6, 1.5, 0.6], "direction": [0.6, -1, 0], "size": [0.5, 0.3]}]
+  },
+  "stop": {"passes": 1000000}
+})";
+
+class GizmoWindowTest : public test::PicturedWindow {};
+
+TEST_F(GizmoWindowTest, AnArrowMovesABall)
+{
+  const std::string file = folder.write("handles.json", scene_text);
+  const preset::Preset before = preset::read_preset(file);
+  const preset::Vec3 from = before.scene.objects[0].transform.translate;
+  Pixel ball, tip, end; // of the arrow along x: where it is, and where it goes
+  {
+    test::HeadlessWindow<test::SceneRuns> like(tall, "", file);
+    const auto& resolution = before.scene.camera.resolution;
+    const Sight sight = *make_sight(before.scene.camera, place(Look{}, like.view().canvas(), resolution), resolution);
+    const glm::dvec3 middle = to_vector(from);
+    const Point at = *sight.to_screen(middle);
+    like.click(at);
+    like.frames(2);
+    const Point arrow = like.view().overlay().gizmo().places().value()[1];
+    // The tip stays under the mouse. The arrow is as long on the screen everywhere, so it shortens in the scene as it comes nearer.
+    const Ray ray = sight.ray(arrow);
+    const double away = (middle.z - ray.origin.z) / ray.direction.z; // in the plane of x and y through the middle
+    const glm::dvec3 there = middle + glm::dvec3(right_by, 0, 0);
+    const double length = (ray.origin + away * ray.direction - middle).x * sight.depth(there) / sight.depth(middle);
+    ball = pixel(at), tip = pixel(arrow), end = pixel(*sight.to_screen(there + glm::dvec3(length, 0, 0)));
+  }
+  test::PlayedWindow window(file, {"--size", fmt::format("{}x{}", tall[0], tall[1])}, folder.path());
+  window.click(ball);
+  window.move(tip);
+  window.press();
+  window.glide(tip, end);
+  window.until("the picture follows while the ball is held", [&] {
+    const image::Image picture = window.picture("held.png");
+    const auto green = [&](const Pixel& at) { return test::bytes_at(picture, at[0], at[1])[1]; };
+    return green({ball[0], ball[1] + 150}) > 40 && green({ball[0] - 20, ball[1] - 55}) < 20; // the floor is lit; where it was it is dark
+  });
+  if (std::getenv("NEPHROID_PICTURES")) {
+    std::this_thread::sleep_for(std::chrono::seconds(4)); // until it is where the hand is
+    window.picture("window-handles.png");
+    keep_for_docs(folder.path() / "window-handles.png");
+  }
+  window.let_go();
+  window.save();
+  const test::Ended ended = window.quit();
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const preset::Preset after = preset::read_preset(file);
+  const preset::Vec3 to = after.scene.objects[0].transform.translate;
+  EXPECT_NEAR(to[0] - from[0], right_by, 0.02 * right_by);
+  EXPECT_EQ(to[1], from[1]);
+  EXPECT_EQ(to[2], from[2]);
+  EXPECT_EQ(after.scene.camera, before.scene.camera) << "nothing orbited";
 }
 
 } // namespace nephroid::ui::panel_pictures_test

@@ -306,7 +306,7 @@ TEST_F(ParametersTest, WhatARunRefusesIsSaidAtItsFieldToo)
   open();
   runs.refusal = bad_input(Place(workbench.preset()->source, fov), "is not to this run's taste");
   workbench.apply({command::Restart{}});
-  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::failed; }));
+  ASSERT_TRUE(until(job::State::failed));
   search("scene.camera.fov_deg");
   EXPECT_TRUE(panel().place_of(fov + ":problem"));
 }

@@ -51,7 +51,7 @@ TEST_F(PlanPanelTest, ABoxEditsThePresetAndCanBeUndone)
   EXPECT_EQ(back, workbench.edits()->opened()) << "nothing else changed";
   EXPECT_FALSE(workbench.preset()->leave_out);
   const int made = runs.made;
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made || workbench.run().snapshot_is_current(); }));
+  ASSERT_TRUE(until([&] { return runs.made > made || workbench.run().snapshot_is_current(); }));
   frames(2);
   const auto again = click("mirrors");
   ASSERT_TRUE(again);
@@ -87,7 +87,7 @@ TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne)
   ASSERT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
   frame();
   EXPECT_EQ(workbench.run().plan(), nullptr);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().plan() != nullptr; }));
+  ASSERT_TRUE(until([&] { return workbench.run().plan() != nullptr; }));
   frames(2);
   EXPECT_TRUE(workspace.panel<ui::PlanPanel>().place_of("mirrors"));
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever a hand does to mouse and keyboard, the window stays: random clicks, drags, keys, values out of range and dropped files, in
 // presets of all engines, on fake jobs. NEPHROID_RANDOM_SECONDS=600 plays for ten minutes what was not played before; under ./test.sh asan
-// it looks for what nobody sees.
+// it looks for what nobody sees. And keys and clicks with modifiers that all arrive between two frames.
 #include "tests/support/process_state.h"
+#include "tests/support/test.h"
+#include "ui/shell/input_events.h"
 #include "window_fixture.h"
 
 #include <imgui_internal.h>
@@ -14,13 +16,15 @@ protected:
   RandomInput()
   {
     for (const char* name : {"first-light", "spectral/prism", "environment/ball", "inverse/shapes"}) copy_preset(name);
-    files_.push_back(folder.write("cut.json", R"({"scene": {)"));
-    files_.push_back(folder.write("nothing.exr", "v/1"));
-    files_.push_back(folder.write("picture.png", "\x89PNG\r\n"));
-    files_.push_back(folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    files_.push_back(folder.write("bad.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\n"));
-    files_.push_back(folder.write("scene.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"children": [0]}]})"));
-    files_.push_back(folder.write("glass.yml", "DATA:\n  - type: formula 1\n    coefficients: 0 1 0.1\n"));
+    for (const auto& [name, text] :
+         std::map<std::string, std::string>{{"cut.json", R"({"scene": {)"},
+                                            {"nothing.exr", "v/1"},
+                                            {"picture.png", "\x89PNG\r\n"},
+                                            {"triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+                                            {"bad.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\n"},
+                                            {"scene.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"children": [0]}]})"},
+                                            {"glass.yml", "DATA:\n  - type: formula 1\n    coefficients: 0 1 0.1\n"}})
+      files_.push_back(folder.write(name, text));
     files_.push_back((folder.path() / "gone.json").string());
   }
 
@@ -30,48 +34,24 @@ protected:
     files_.push_back(folder.write(fs::path(name).filename().string() + ".json", preset::to_json(preset::read_preset(name), folder.path())));
   }
 
-  template <class T>
-  const T& one_of(const std::vector<T>& all)
-  {
-    return all[random_() % all.size()];
-  }
   double draw(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
 
   void some_text()
   {
-    static const std::vector<std::string> texts{"nan",
-                                                "-1",
-                                                "1e999",
-                                                "inf",
-                                                "0",
-                                                "1e-320",
-                                                "999999999999999999999",
-                                                "\xc3\xa9\xe2\x82\xac",
-                                                "%s%n%d",
-                                                "../../x",
-                                                "a",
-                                                "",
-                                                ".5",
-                                                "-0",
-                                                "0x10",
-                                                "glass",
-                                                "first",
-                                                "\t",
-                                                "\xff\xfe"};
-    ImGui::GetIO().AddInputCharactersUTF8(one_of(texts).c_str());
+    std::istringstream texts(
+        "nan|-1|1e999|inf|0|1e-320|999999999999999999999|\xc3\xa9\xe2\x82\xac|%s%n%d|../../x|a||.5|-0|0x10|glass|first|"
+        "\t|\xff\xfe");
+    std::string text;
+    for (auto skip = random_() % 19; std::getline(texts, text, '|') && skip > 0;) --skip;
+    ImGui::GetIO().AddInputCharactersUTF8(text.c_str());
   }
   void some_key()
   {
     const auto key =
         static_cast<ImGuiKey>(ImGuiKey_NamedKey_BEGIN + static_cast<int>(random_() % (ImGuiKey_GamepadStart - ImGuiKey_NamedKey_BEGIN)));
     if (key >= ImGuiKey_MouseLeft && key <= ImGuiKey_MouseWheelY) return;
-    static const std::vector<ImGuiKey> modifiers{ImGuiKey_None,
-                                                 ImGuiKey_None,
-                                                 ImGuiKey_None,
-                                                 static_cast<ImGuiKey>(ImGuiMod_Ctrl),
-                                                 static_cast<ImGuiKey>(ImGuiMod_Shift),
-                                                 static_cast<ImGuiKey>(ImGuiMod_Alt)};
-    const ImGuiKey modifier = one_of(modifiers);
+    constexpr ImGuiKey modifiers[] = {ImGuiMod_Ctrl, ImGuiMod_Shift, ImGuiMod_Alt};
+    const ImGuiKey modifier = random_() % 2 ? modifiers[random_() % 3] : ImGuiKey_None;
     if (modifier) imgui.key(modifier, true);
     imgui.key(key, true);
     frame();
@@ -80,48 +60,31 @@ protected:
   }
   void some_event()
   {
-    switch (random_() % 16) {
-    case 0:
-    case 1:
-    case 2:
-    case 3:
+    const auto kind = random_() % 16;
+    if (kind < 4)
       imgui.move(draw(-20, 1020), draw(-20, 720));
-      break;
-    case 4:
-    case 5:
-      imgui.button(static_cast<int>(random_() % 3), true);
-      break;
-    case 6:
-    case 7:
-    case 8:
-      imgui.button(static_cast<int>(random_() % 3), false);
-      break;
-    case 9:
+    else if (kind < 9)
+      imgui.button(static_cast<int>(random_() % 3), kind < 6);
+    else if (kind == 9)
       imgui.wheel(draw(-3, 3));
-      break;
-    case 10:
-    case 11:
+    else if (kind < 12)
       some_key();
-      break;
-    case 12:
+    else if (kind == 12)
       some_text();
-      break;
-    case 13: // a click somewhere, twice
+    else if (kind == 13) // a click somewhere, twice
       for (const bool down : {true, false, true, false}) {
         imgui.button(0, down);
         frame();
       }
-      break;
-    case 14: // an action, as the palette runs it
+    else if (kind == 14) { // an action, as the palette runs it
       if (const Action& action = actions()[random_() % actions().size()]; action.enabled(context())) {
         Commands commands;
         action.run(workbench.context(commands));
         workbench.apply(commands);
       }
-      break;
-    default:
-      if (random_() % 10 == 0) workbench.apply({command::Open{one_of(files_), random_() % 2 == 0}});
-      if (random_() % 40 == 0) ImGui::GetIO().DisplaySize = {static_cast<float>(draw(1, 2000)), static_cast<float>(draw(1, 1500))};
+    } else {
+      if (random_() % 10 == 0) workbench.apply({command::Open{files_[random_() % files_.size()], random_() % 2 == 0}});
+      if (random_() % 40 == 0) resize({static_cast<int>(draw(1, 2000)), static_cast<int>(draw(1, 1500))});
     }
     ++events_;
   }
@@ -173,6 +136,75 @@ TEST_F(RandomInput, TheWindowStays)
   }
   EXPECT_GT(presets, 0u);
   fmt::print("{} events, {} seeds from {}, {} times a preset was there\n", events_, seeds, first, presets);
+}
+
+class InputEventsTest : public ::testing::Test {
+protected:
+  InputEventsTest() { ImGui::GetIO().ConfigInputTrickleEventQueue = true; } // as in the window
+  void key(ImGuiKey which, ImGuiKey modifier, bool down)
+  {
+    imgui_.key(modifier, down);
+    imgui_.key(which, down);
+  }
+  void ctrl(bool down) { key(ImGuiKey_LeftCtrl, static_cast<ImGuiKey>(ImGuiMod_Ctrl), down); }
+  /// In how many frames of some more it was so.
+  static int frames_with(const std::function<bool()>& condition)
+  {
+    int found = 0;
+    for (int i = 0; i < 6; ++i) {
+      new_frame();
+      found += condition();
+      ImGui::Render();
+    }
+    return found;
+  }
+  test::Headless imgui_;
+};
+
+TEST_F(InputEventsTest, AChordIsSeenThoughItsModifierWasLetGoFirst)
+{
+  for (const bool in_one_frame : {true, false}) {
+    ctrl(true);
+    if (!in_one_frame) frames_with([] { return false; });
+    imgui_.key(ImGuiKey_Z, true);
+    ctrl(false);
+    imgui_.key(ImGuiKey_Z, false);
+    EXPECT_EQ(frames_with([] { return ImGui::IsKeyChordPressed(ImGuiMod_Ctrl | ImGuiKey_Z); }), 1);
+    EXPECT_EQ(ImGui::GetIO().KeyMods, ImGuiMod_None);
+    EXPECT_FALSE(ImGui::IsKeyDown(ImGuiKey_Z));
+  }
+}
+
+TEST_F(InputEventsTest, AModifierThatIsPressedAgainAtOnceStaysPressed)
+{
+  ctrl(true);
+  frames_with([] { return false; });
+  imgui_.key(ImGuiKey_Z, true);
+  ctrl(false);
+  new_frame();
+  ImGui::Render();
+  ctrl(true);
+  frames_with([] { return false; });
+  EXPECT_EQ(ImGui::GetIO().KeyMods, ImGuiMod_Ctrl);
+}
+
+TEST_F(InputEventsTest, ATurnOfTheWheelHasTheModifierThatWasHeld)
+{
+  ctrl(true);
+  frames_with([] { return false; });
+  imgui_.wheel(1);
+  ctrl(false);
+  EXPECT_EQ(frames_with([] { return ImGui::GetIO().MouseWheel != 0 && ImGui::GetIO().KeyCtrl; }), 1);
+}
+
+TEST_F(InputEventsTest, AClickHasTheModifierThatWasHeld)
+{
+  ctrl(true);
+  frames_with([] { return false; });
+  imgui_.button(0, true);
+  ctrl(false);
+  imgui_.button(0, false);
+  EXPECT_EQ(frames_with([] { return ImGui::IsMouseClicked(0) && ImGui::GetIO().KeyCtrl; }), 1);
 }
 
 } // namespace nephroid::ui::random_input_test

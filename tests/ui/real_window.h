@@ -35,11 +35,11 @@ public:
     find();
   }
 
-  /// The window as a person begins with it, on its start page, in a folder where he works. It keeps sessions in folder/state and caches in
-  /// folder/cache.
-  PlayedWindow(const std::array<int, 2>& size, const std::filesystem::path& folder, const std::filesystem::path& works_in)
-      : folder_(folder), program_({"--size", fmt::format("{}x{}", size[0], size[1]), "--frame-times", (folder / "frames.csv").string()},
-                                  works_in, folder, with_own_folders(display_.environment(), folder))
+  /// The window as a person begins with it in a folder where he works; without options on its start page. It keeps sessions in folder/state
+  /// and caches in folder/cache.
+  PlayedWindow(std::vector<std::string> options, const std::filesystem::path& folder, const std::filesystem::path& works_in)
+      : folder_(folder),
+        program_(with_times(std::move(options), folder / "frames.csv"), works_in, folder, with_own_folders(display_.environment(), folder))
   {
     find();
   }
@@ -48,6 +48,7 @@ public:
   /// The left button.
   void press() { send({"mousedown", "1"}); }
   void let_go() { send({"mouseup", "1"}); }
+  void turn_wheel() { send({"click", "4"}); }
   void glide(const Pixel& from, const Pixel& to)
   {
     constexpr int moves = 4;
@@ -92,6 +93,12 @@ public:
     send({"keydown", "ctrl"});
     xdotool({"keydown", "q"});
     until("it closes", [&] { return program_.gone(); });
+    return program_.wait();
+  }
+
+  Ended kill()
+  {
+    program_.send(SIGKILL);
     return program_.wait();
   }
 
@@ -140,6 +147,12 @@ private:
     id_ = found.substr(0, found.find('\n'));
     send({"windowfocus", "--sync", id_});
   }
+  static std::vector<std::string> with_times(std::vector<std::string> options, const std::filesystem::path& file)
+  {
+    std::filesystem::remove(file); // of a window before this one
+    options.insert(options.end(), {"--frame-times", file.string()});
+    return options;
+  }
   static Environment with_own_folders(Environment environment, const std::filesystem::path& folder)
   {
     environment["XDG_STATE_HOME"] = (folder / "state").string();
@@ -185,18 +198,34 @@ private:
 
 class RealWindow : public ::testing::Test {
 protected:
-  explicit RealWindow(std::vector<std::string> tools = {"Xvfb", "xdotool"}) : tools_(std::move(tools)) {}
   void SetUp() override
   {
-    for (const std::string& tool : tools_)
+    for (const char* tool : {"Xvfb", "xdotool"})
       if (!there_is(tool)) GTEST_SKIP() << "no " << tool;
   }
   image::Image screen() const { return image::read_image(folder.path() / "screen.png"); }
 
   TemporaryFolder folder;
-
-private:
-  std::vector<std::string> tools_;
 };
+
+/// Of which pictures are taken; ImageMagick does that.
+class PicturedWindow : public RealWindow {
+protected:
+  void SetUp() override
+  {
+    RealWindow::SetUp();
+    if (!there_is("import")) GTEST_SKIP() << "no import";
+  }
+};
+
+/// With the folder docs in NEPHROID_PICTURES a picture of its pages is written there, with 256 colours: that is a fifth of its bytes.
+inline void keep_for_docs(const std::filesystem::path& picture)
+{
+  const char* docs = std::getenv("NEPHROID_PICTURES");
+  if (!docs) return;
+  const std::string command =
+      fmt::format("convert '{}' +dither -colors 256 'png8:{}/{}'", picture.string(), docs, picture.filename().string());
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+}
 
 } // namespace nephroid::test

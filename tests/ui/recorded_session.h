@@ -4,11 +4,11 @@
 // there, and in NEPHROID_SHOTS they are kept whole.
 #pragma once
 #include "base/files.h"
-#include "places.h"
 #include "real_window.h"
 #include "tests/support/process_state.h"
 #include "ui/presets/panel.h"
 #include "ui/state/session.h"
+#include "window_fixture.h"
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -32,7 +32,8 @@ public:
   /// name: of the sheet, session-NAME.jpg. What the window saves by a name alone is in saved(). opened_lately: a preset's text; the file
   /// saved()/NAME.json has it, and the start page lists it.
   RecordedSession(std::string name, const std::filesystem::path& folder, const std::string& opened_lately = {})
-      : name_(std::move(name)), folder_(folder), aside_(made(folder / "aside")), window_(size, folder, prepared(opened_lately))
+      : name_(std::move(name)), folder_(folder), aside_(made(folder / "aside")),
+        window_({"--size", fmt::format("{}x{}", size[0], size[1])}, folder, prepared(opened_lately))
   {
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(size[0]), static_cast<float>(size[1])};
@@ -193,6 +194,13 @@ public:
     const char* kept = std::getenv("NEPHROID_SHOTS");
     if (kept)
       std::filesystem::copy_file(folder_ / file, std::filesystem::path(kept) / file, std::filesystem::copy_options::overwrite_existing);
+  }
+  /// For a page of the docs: with what the mouse is over now.
+  image::Image picture(const std::string& name)
+  {
+    image::Image picture = window_.picture(name);
+    keep_for_docs(folder_ / name);
+    return picture;
   }
   PlayedWindow& window() { return window_; }
   /// Quits; the session that the window leaves.

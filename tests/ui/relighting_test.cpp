@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An edit of a light in a preset that keeps layers goes to the run in hand; every other edit starts a new run.
+#include "fake_job.h"
 #include "spectral/settings.h"
-#include "workbench_fixture.h"
 
 namespace nephroid::ui::relighting_test {
 

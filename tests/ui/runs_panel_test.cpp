@@ -17,7 +17,7 @@ protected:
   void edit(const std::function<void(preset::Preset&)>& change)
   {
     WindowFixtureOf::edit(change);
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
+    ASSERT_TRUE(until_current());
     finish();
   }
   std::string difference(const RunRow& row) { return PresetDifferences().in_short(row, context()); }
@@ -26,16 +26,14 @@ protected:
   std::string report(const std::string& file)
   {
     workbench.apply({command::WriteReport{file}});
-    EXPECT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
+    EXPECT_TRUE(until_files_are_done());
     return workbench.messages().empty() ? "" : workbench.messages().back().line;
   }
 };
 
 TEST_F(RunsPanelTest, ListsTheRunInHandAndThePinnedOnes)
 {
-  measured();
-  open();
-  finish();
+  run_measured();
   press(ImGuiKey_P);
   edit([](preset::Preset& p) {
     p.scene.lights[0].power_w = 20;
@@ -59,15 +57,14 @@ TEST_F(RunsPanelTest, ListsTheRunInHandAndThePinnedOnes)
 
 TEST_F(RunsPanelTest, WhatARunDoesNotKnowIsADash)
 {
-  open();
-  finish();
+  run_through();
   frame();
   ASSERT_THAT(panel().rows(), SizeIs(1));
   EXPECT_EQ(panel().rows()[0].error, "-") << "nothing is measured";
   EXPECT_EQ(panel().rows()[0].error_kind, "-");
   folder.write("old.csv", measure::to_csv(*falling_history(3)));
   workbench.apply({command::PinFile{folder.path() / "old.csv"}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return panel().rows().size() == 2; }));
+  ASSERT_TRUE(until([&] { return panel().rows().size() == 2; }));
   const RunRow& table = panel().rows()[1];
   EXPECT_EQ(table.engine, "-");
   EXPECT_EQ(table.steps, "-");
@@ -86,8 +83,7 @@ TEST_F(RunsPanelTest, AnEstimateIsCalledOne)
     history->error_column = "estimated_lab_mean";
     return history;
   };
-  open();
-  finish();
+  run_through();
   frame();
   EXPECT_EQ(panel().rows()[0].error, "0.0246 lab_mean");
   EXPECT_EQ(panel().rows()[0].error_kind, "estimate");
@@ -95,8 +91,7 @@ TEST_F(RunsPanelTest, AnEstimateIsCalledOne)
 
 TEST_F(RunsPanelTest, ShowsARunInTheView)
 {
-  open();
-  finish();
+  run_through();
   press(ImGuiKey_P);
   edit([](preset::Preset& p) { p.scene.camera.position[2] = 0; });
   const std::string show = fmt::format("show {}", pins()[0].id);
@@ -104,7 +99,7 @@ TEST_F(RunsPanelTest, ShowsARunInTheView)
   EXPECT_TRUE(workbench.comparing().comparison().flip);
   EXPECT_EQ(workbench.comparing().comparison().pin, pins()[0].id);
   frames(2);
-  EXPECT_EQ(workspace.panel<ViewPanel>().shown().label, "\"Test\"");
+  EXPECT_EQ(view().shown().label, "\"Test\"");
   click_on("show 0");
   EXPECT_FALSE(workbench.comparing().comparison().flip);
   click_on(show);
@@ -114,8 +109,7 @@ TEST_F(RunsPanelTest, ShowsARunInTheView)
 
 TEST_F(RunsPanelTest, TakesTheTakenPresetAsOneEdit)
 {
-  open();
-  finish();
+  run_through();
   press(ImGuiKey_P);
   edit([](preset::Preset& p) {
     p.name = "Other";
@@ -131,8 +125,7 @@ TEST_F(RunsPanelTest, TakesTheTakenPresetAsOneEdit)
 
 TEST_F(RunsPanelTest, PinsAndUnpins)
 {
-  open();
-  finish();
+  run_through();
   click_on("pin");
   ASSERT_THAT(pins(), SizeIs(1));
   click_on(fmt::format("unpin {}", pins()[0].id));
@@ -143,9 +136,7 @@ TEST_F(RunsPanelTest, PinsAndUnpins)
 
 TEST_F(RunsPanelTest, TheReportIsOverAllFinishedRuns)
 {
-  measured();
-  open();
-  finish();
+  run_measured();
   press(ImGuiKey_P);
   edit([](preset::Preset& p) { p.scene.lights[0].power_w = 20; });
   EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("a report over 2 runs"));
@@ -164,27 +155,23 @@ TEST_F(RunsPanelTest, TheReportIsOverAllFinishedRuns)
 
 TEST_F(RunsPanelTest, ADialogAsksForTheReportsName)
 {
-  measured();
-  open();
-  finish();
+  run_measured();
   click_on("report");
   ASSERT_EQ(workbench.question(), Question::save_report);
   frames(3);
   retype(folder.path() / "asked.html");
   press(ImGuiKey_Enter);
   EXPECT_EQ(workbench.question(), Question::none);
-  EXPECT_TRUE(eventually([&] { frame(); }, [&] { return is_there(folder.path() / "asked.html"); }));
+  EXPECT_TRUE(until([&] { return is_there(folder.path() / "asked.html"); }));
 }
 
 TEST_F(RunsPanelTest, AReportSaysWhatItLeavesOutAndWhy)
 {
-  measured();
-  open();
-  finish();
+  run_measured();
   press(ImGuiKey_P);
   folder.write("old.csv", measure::to_csv(*falling_history(3)));
   workbench.apply({command::PinFile{folder.path() / "old.csv"}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return pins().size() == 2; }));
+  ASSERT_TRUE(until([&] { return pins().size() == 2; }));
   const std::string note = report((folder.path() / "page.html").string());
   EXPECT_THAT(note, HasSubstr("over 1 run;"));
   EXPECT_THAT(note, HasSubstr("left out: \"old\": only its history was read"));
@@ -203,9 +190,7 @@ TEST_F(RunsPanelTest, WithoutAFinishedRunThereIsNoReport)
 
 TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing)
 {
-  measured();
-  open();
-  finish();
+  run_measured();
   EXPECT_THAT(report((folder.path() / "page.txt").string()), HasSubstr("expected a name that ends in .html"));
   folder.write("file", "no folder");
   EXPECT_THAT(report((folder.path() / "file" / "page.html").string()), HasSubstr("file/page"));
@@ -223,12 +208,10 @@ TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing)
 
 TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs)
 {
-  measured();
-  open();
-  finish();
+  run_measured();
   write_run_folder(folder.path() / "before", run_now(workbench.run()), "before", true);
   workbench.apply({command::PinFile{folder.path() / "before"}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return pins().size() == 1; }));
+  ASSERT_TRUE(until([&] { return pins().size() == 1; }));
   frame();
   const RunRow row = panel().rows()[1];
   EXPECT_EQ(row.engine, "spectral");
@@ -247,9 +230,7 @@ TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs)
 
 TEST_F(RunsPanelTest, ASessionKeepsWhatIsKnownOfAPin)
 {
-  measured();
-  open();
-  finish();
+  run_measured();
   press(ImGuiKey_P);
   const auto state = folder.path() / "state";
   {
@@ -281,7 +262,7 @@ TEST_F(RunsPanelTest, ADamagedFolderIsSaidOnce)
   write_file_whole(bad / "run.json", "{\"engine\": 7, \"units\": [], \"work_seconds\": \"long\", \"finished\": 1}");
   write_file_whole(bad / "preset.json", "{\"engine\": \"none of ours\"}");
   workbench.apply({command::PinFile{bad}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return panel().rows().size() == 2; }));
+  ASSERT_TRUE(until([&] { return panel().rows().size() == 2; }));
   EXPECT_EQ(panel().rows()[1].engine, "-");
   EXPECT_EQ(panel().rows()[1].seconds, "-");
   EXPECT_EQ(difference(panel().rows()[1]), "its preset is not known");

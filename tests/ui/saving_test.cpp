@@ -19,20 +19,11 @@ protected:
   const std::string parent = folder.write("parent.json", test::preset_text);
   const std::string child = folder.write("child.json", R"({"parent": "parent.json", "seed": 5})");
 
-  void open_file(const std::string& name)
-  {
-    ASSERT_TRUE(workbench.open(name));
-    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return !workspace.panel<ViewPanel>().texture().empty(); }));
-    frames(3);
-  }
   void set_white(double white)
   {
-    preset::Preset p = *workbench.preset();
-    p.white = white;
-    workbench.apply({command::Edit{"white", p}});
+    edit([&](preset::Preset& p) { p.white = white; });
   }
   static Json read(const fs::path& file) { return Json::parse(read_file(file)); }
-  std::string last_message() const { return workbench.messages().empty() ? std::string() : workbench.messages().back().line; }
   void press_with_shift(ImGuiKey key)
   {
     imgui.key(ImGuiMod_Shift, true);
@@ -48,7 +39,7 @@ TEST_F(SavingTest, TheCommandLineIsOnTheClipboard)
   set_white(2.5);
   press_with_shift(ImGuiKey_C);
   EXPECT_EQ(std::string(ImGui::GetClipboardText()), "nephroid run " + preset::shell_word(child) + " --set white=2.5");
-  EXPECT_EQ(last_message(), "copied the command line");
+  EXPECT_EQ(last_message(workbench), "copied the command line");
 }
 
 TEST_F(SavingTest, WithoutAFileTheCommandLineSaysToSaveFirst)
@@ -58,7 +49,7 @@ TEST_F(SavingTest, WithoutAFileTheCommandLineSaysToSaveFirst)
   ImGui::SetClipboardText("before");
   press_with_shift(ImGuiKey_C);
   EXPECT_EQ(std::string(ImGui::GetClipboardText()), "before");
-  EXPECT_THAT(last_message(), HasSubstr("save the preset first"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("save the preset first"));
 }
 
 TEST_F(SavingTest, SaveKeepsTheParent)
@@ -123,7 +114,7 @@ TEST_F(SavingTest, WhereTheParentCannotBeKeptTheFileIsWholeAndANoteSaysWhy)
   EXPECT_FALSE(workbench.edits()->modified());
   EXPECT_FALSE(read(child).contains("parent"));
   EXPECT_EQ(preset::read_preset(child).white, 3);
-  EXPECT_THAT(last_message(), HasSubstr("is saved whole, without its parent 'parent.json'"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("is saved whole, without its parent 'parent.json'"));
   EXPECT_FALSE(workbench.messages().back().error);
 }
 
@@ -170,16 +161,16 @@ TEST_F(SavingTest, ADroppedSceneBecomesAPresetInAFolderOfItsOwn)
     "buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
   const std::string file = folder.write("tri.gltf", text);
   workbench.apply({command::Open{file}});
-  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
-  ASSERT_TRUE(workbench.preset()) << last_message();
+  ASSERT_TRUE(until_files_are_done());
+  ASSERT_TRUE(workbench.preset()) << last_message(workbench);
   EXPECT_EQ(workbench.preset()->source, folder.path() / "tri-scene/tri.json");
   EXPECT_EQ(workbench.preset()->scene.objects.size(), 1u);
   workbench.apply({command::Open{file}});
-  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
+  ASSERT_TRUE(until_files_are_done());
   EXPECT_EQ(workbench.preset()->source, folder.path() / "tri-scene-2/tri.json") << "the first may have been edited since";
   workbench.apply({command::Open{folder.write("cut.glb", "glTF")}});
-  ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
-  EXPECT_THAT(last_message(), HasSubstr("cut.glb: is cut"));
+  ASSERT_TRUE(until_files_are_done());
+  EXPECT_THAT(last_message(workbench), HasSubstr("cut.glb: is cut"));
   EXPECT_EQ(workbench.preset()->source, folder.path() / "tri-scene-2/tri.json");
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Selecting and moving in the whole window, by injected mouse and keys on fake runs with a loaded scene: clicks, the list, the handles, the
 // keys. What a person gets is looked at in the preset.
-#include "inverse_runs.h"
-#include "seen_scene.h"
+#include "scenes.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::select_test {
@@ -21,9 +20,8 @@ protected:
   void open(const std::string& text = test::ball_text())
   {
     WindowFixtureOf::open(text);
-    ASSERT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.run().seen<SeenScene>() != nullptr; }));
+    ASSERT_TRUE(until([&] { return workbench.run().seen<SeenScene>() != nullptr; }));
   }
-  const ViewPanel& view() const { return workspace.panel<ViewPanel>(); }
   const preset::Scene& scene() const { return workbench.preset()->scene; }
   Sight sight() const
   {
@@ -105,7 +103,7 @@ TEST_F(Select, EscapeDeselectsBeforeItCancels)
   frames(5);
   EXPECT_EQ(workbench.run().status().state, job::State::running);
   press(ImGuiKey_Escape);
-  EXPECT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::cancelled; }));
+  EXPECT_TRUE(until(job::State::cancelled));
 }
 
 TEST_F(Select, ASelectionThatIsGoneIsNone)
@@ -296,7 +294,7 @@ TEST_F(Select, AMoveIsAdoptedByTheEnvironmentsRun)
   const Point tip = handle(1);
   drag_between(tip, {tip[0] + 60, tip[1]}, 30);
   EXPECT_GT(scene().objects[0].transform.translate[0], -0.4);
-  EXPECT_TRUE(test::eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
+  EXPECT_TRUE(until_current());
   EXPECT_EQ(runs.made, made) << "no run was started again";
   EXPECT_GT(runs.adopted, 0);
   // The scene that was loaded has the ball where it was; it is found where it is.

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sessions: what is kept is what was there; a window that was killed is opened again with it; what cannot be read loses nothing.
+#include "fake_job.h"
 #include "ui/state/session_keeper.h"
-#include "workbench_fixture.h"
 
 namespace nephroid::ui::session_test {
 
 /// A window without a display: a workbench with its keeper.
 struct Window {
   explicit Window(const std::filesystem::path& state) : keeper(state) {}
+  void finish()
+  {
+    ASSERT_TRUE(eventually([&] { workbench.update(); }, [&] { return workbench.run().status().state == job::State::finished; }));
+  }
   /// Until everything is in the files.
   void settle()
   {
-    ASSERT_TRUE(test::eventually([&] { workbench.update(); }, [&] { return !workbench.works_on_files(); }));
+    ASSERT_TRUE(eventually([&] { workbench.update(); }, [&] { return !workbench.works_on_files(); }));
     for (int i = 0; i < 100; ++i) {
       keeper.update(workbench, later += std::chrono::seconds(20));
       workbench.update();
@@ -45,45 +49,40 @@ protected:
   }
 };
 
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
 /// An edit of some field, of list or map, at random.
 void change_something(preset::Preset& preset, std::mt19937& random)
 {
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   auto& scene = preset.scene;
-  switch (random() % 9) {
-  case 0:
-    scene.camera.position = {draw(-9, 9), draw(1, 9), draw(2, 9)};
-    break;
-  case 1:
-    scene.camera.fov_deg = draw(1, 170);
-    break;
-  case 2:
-    preset.seed = random();
-    break;
-  case 3:
-    preset.description = "written \"by\" chance \u00e9 " + std::to_string(random());
-    break;
-  case 4: {
-    preset::Material& glass = scene.materials["glass" + std::to_string(random() % 4)];
-    glass.type = preset::Material::Type::dielectric;
-    glass.dispersion.n = draw(1, 3);
-    break;
-  }
-  case 5: {
-    preset::Object& ball = scene.objects.emplace_back();
-    ball.shape.emplace().radius = draw(0.1, 2);
-    ball.material = "wall";
-    break;
-  }
-  case 6:
-    if (scene.objects.size() > 1) scene.objects.erase(scene.objects.begin());
-    break;
-  case 7:
-    scene.lights.emplace_back().power_w = draw(1e-9, 1e9);
-    break;
-  default:
-    preset.stop.error = random() % 2 ? std::optional(draw(1e-6, 1)) : std::nullopt;
-  }
+  const std::function<void()> changes[] = {
+      [&] {
+        scene.camera.position = {draw(-9, 9), draw(1, 9), draw(2, 9)};
+      },
+      [&] { scene.camera.fov_deg = draw(1, 170); },
+      [&] { preset.seed = random(); },
+      [&] { preset.description = "written \"by\" chance \u00e9 " + std::to_string(random()); },
+      [&] {
+        preset::Material& glass = scene.materials["glass" + std::to_string(random() % 4)];
+        glass.type = preset::Material::Type::dielectric;
+        glass.dispersion.n = draw(1, 3);
+      },
+      [&] {
+        preset::Object& ball = scene.objects.emplace_back();
+        ball.shape.emplace().radius = draw(0.1, 2);
+        ball.material = "wall";
+      },
+      [&] { scene.objects.erase(scene.objects.begin(), scene.objects.begin() + (scene.objects.size() > 1)); },
+      [&] { scene.lights.emplace_back().power_w = draw(1e-9, 1e9); },
+      [&] { preset.stop.error = random() % 2 ? std::optional(draw(1e-6, 1)) : std::nullopt; },
+  };
+  changes[random() % std::size(changes)]();
 }
 
 TEST_F(SessionTest, AHundredEditsUndoneGiveTheSameBytes)
@@ -152,8 +151,7 @@ TEST_F(SessionTest, PinnedRunsComeBackWithTheirPictures)
     Window window(state());
     window.runs.history = [](int steps) { return test::falling_history(steps); };
     ASSERT_TRUE(window.workbench.open(preset_file()));
-    ASSERT_TRUE(test::eventually([&] { window.workbench.update(); },
-                                 [&] { return window.workbench.run().status().state == job::State::finished; }));
+    window.finish();
     window.workbench.apply({command::PinRun{}, command::ChangePin{1, "kept", 0xff112233, false}});
     window.settle();
   }
@@ -270,12 +268,7 @@ TEST_F(SessionTest, WrongValuesAreRefused)
   Window window(state());
   ASSERT_TRUE(window.workbench.open(preset_file()));
   const std::string whole = text_of(window.workbench);
-  const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = whole;
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    return text.replace(at, from.size(), to);
-  };
+  const auto with = [&](const std::string& from, const std::string& to) { return replaced(whole, from, to); };
   EXPECT_THROW(parse_session(with("\"index\":0", "\"index\":7"), ""), Error);
   EXPECT_THROW(parse_session(with("\"index\":0", "\"index\":-1"), ""), Error);
   EXPECT_THROW(parse_session(with("\"saved\":0", "\"saved\":4"), ""), Error);
@@ -344,12 +337,7 @@ TEST(Settings, WhatCannotBeIsRefused)
   settings.engines["spectral"] = {"[Docking][Data]\nDockNode ID=0x00000003\n", {"plan"}};
   const std::string text = to_json(settings);
   EXPECT_EQ(parse_settings(text, ""), settings);
-  const auto with = [&](const std::string& from, const std::string& to) {
-    std::string changed = text;
-    const std::size_t at = changed.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    return changed.replace(at, from.size(), to);
-  };
+  const auto with = [&](const std::string& from, const std::string& to) { return replaced(text, from, to); };
   EXPECT_THROW(parse_settings(with("0x00000003", "0x00000004"), ""), Error) << "Dear ImGui trusts what it reads";
   EXPECT_THROW(parse_settings(with("\"version\": 2", "\"version\": 1"), ""), Error);
   EXPECT_THROW(parse_settings(with("\"text_size\": 1.0", "\"text_size\": 1e9"), ""), Error);

@@ -2,7 +2,7 @@
 // The panel "Spectra": the mouse edits a light's spectrum, one gesture one entry; its numbers are the engine's; what is
 // wrong is a sentence in it.
 #include "scene/materials.h"
-#include "spectra_scene.h"
+#include "scenes.h"
 #include "spectral/tables/run_tables.h"
 #include "ui/spectral/spectra/light_edits.h"
 #include "ui/spectral/spectra/panel.h"
@@ -15,7 +15,7 @@ using Effort = spectral::Settings::Effort;
 
 constexpr const char* table = R"({"type": "table", "table": [[400, 0.2], [500, 1], [600, 0.5], [700, 0.8]]})";
 
-class SpectraPanelTest : public test::WindowFixtureOf<test::SeeingRuns> {
+class SpectraPanelTest : public test::WindowFixtureOf<test::SceneRuns> {
 protected:
   SpectraPanelTest() : WindowFixtureOf("spectra") {}
 
@@ -23,7 +23,7 @@ protected:
   {
     runs.steps = 100000;
     open(room_text(spectrum, effort));
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().seen<ui::SeenByGlass>() != nullptr; }));
+    ASSERT_TRUE(until([&] { return workbench.run().seen<ui::SeenByGlass>() != nullptr; }));
     frames(2);
   }
   const SpectraPanel& panel() const { return workspace.panel<ui::SpectraPanel>(); }
@@ -147,7 +147,7 @@ TEST_F(SpectraPanelTest, ItsNumbersAreTheEngines)
             effort == Effort::random ? spectral::Settings::Estimator::sppm : spectral::Settings::Estimator::automatic;
         const int made = runs.made;
         workbench.apply({command::Edit{"effort", preset}});
-        ASSERT_TRUE(eventually([&] { frame(); }, [&] { return runs.made > made && workbench.run().snapshot_is_current(); }));
+        ASSERT_TRUE(until([&] { return runs.made > made && workbench.run().snapshot_is_current(); }));
         frames(2);
         ASSERT_EQ(spectra().why_no_u, "");
         const spectral::WavelengthImportance expected = spectral::wavelength_importance(spectral::settings(preset), scene, bvh);
@@ -197,7 +197,7 @@ TEST_F(SpectraPanelTest, IdleFramesMakeNothingAnew)
   }
   imgui.button(0, false);
   frames(3);
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
+  ASSERT_TRUE(until_current());
   frames(3);
   EXPECT_EQ(panel().maker().updates(), dragged) << "the new run's glass sees what the old one's saw";
 }

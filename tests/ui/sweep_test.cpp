@@ -34,14 +34,11 @@ protected:
   void work_off()
   {
     workbench.apply({command::StartSweep{}});
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.sweep().active(); }));
+    ASSERT_TRUE(until([&] { return !workbench.sweep().active(); }));
     frame();
   }
   /// Until the run in hand is of the present preset again.
-  void come_back()
-  {
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().snapshot_is_current(); }));
-  }
+  void come_back() { ASSERT_TRUE(until_current()); }
   std::vector<Queue> states() const
   {
     std::vector<Queue> all;
@@ -163,14 +160,12 @@ TEST_F(SweepTest, AChildKeepsItsParentAndItsSweep)
 TEST_F(SweepTest, ASweepThatCannotBeIsRefusedWithThePreset)
 {
   EXPECT_FALSE(workbench.open(folder.write("bad.json", swept(R"({"seed": []})"))));
-  ASSERT_THAT(workbench.messages(), SizeIs(1));
-  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("bad.json#/sweep/seed"));
+  EXPECT_THAT(only_message(workbench), HasSubstr("bad.json#/sweep/seed"));
 }
 
 TEST_F(SweepTest, AFieldIsSweptByARangeAndUndone)
 {
-  open();
-  finish();
+  run_through();
   const int made = runs.made;
   click_on("sweep");
   choose("scene.lights.0.power_w");
@@ -224,12 +219,10 @@ TEST_F(SweepTest, AListIsTypedAndEdited)
 
 TEST_F(SweepTest, EachRunBecomesAPin)
 {
-  measured();
-  open(swept(R"({"scene.lights.0.power_w": [5, 15], "seed": [1, 2]})"));
-  finish();
+  run_measured(swept(R"({"scene.lights.0.power_w": [5, 15], "seed": [1, 2]})"));
   click_on("sweep run");
   EXPECT_TRUE(workbench.sweep().active());
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.sweep().active(); }));
+  ASSERT_TRUE(until([&] { return !workbench.sweep().active(); }));
   EXPECT_THAT(states(), ElementsAre(Queue::done, Queue::done, Queue::done, Queue::done));
   ASSERT_THAT(pins(), SizeIs(4));
   EXPECT_EQ(pins()[0].name, "Test,power_w=5,seed=1");
@@ -244,8 +237,8 @@ TEST_F(SweepTest, EachRunBecomesAPin)
   EXPECT_FALSE(workbench.edits()->modified());
   EXPECT_EQ(workbench.run().snapshot_origin().preset->scene.lights[0].power_w, 10);
   workbench.apply({command::WriteReport{folder.path() / "sweep.html"}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.works_on_files(); }));
-  EXPECT_THAT(workbench.messages().back().line, HasSubstr("a report over 5 runs"));
+  ASSERT_TRUE(until_files_are_done());
+  EXPECT_THAT(last_message(workbench), HasSubstr("a report over 5 runs"));
   EXPECT_EQ(preset::read_preset((folder.path() / "sweep-runs" / "04-Test,power_w=15,seed=2" / "preset.json").string()).seed, 2u)
       << "a run, not the sweep";
 }
@@ -263,8 +256,7 @@ TEST_F(SweepTest, WhatIsRefusedFailsAloneAndSaysWhy)
 
 TEST_F(SweepTest, ARunThatFailsDoesNotEndTheSweep)
 {
-  open(swept(R"({"seed": [1, 2]})"));
-  finish();
+  run_through(swept(R"({"seed": [1, 2]})"));
   runs.fails = true;
   work_off();
   EXPECT_THAT(states(), ElementsAre(Queue::failed, Queue::failed));
@@ -274,12 +266,10 @@ TEST_F(SweepTest, ARunThatFailsDoesNotEndTheSweep)
 
 TEST_F(SweepTest, AFieldThatIsNoneIsSaidAndNothingRuns)
 {
-  open();
-  finish();
+  run_through();
   workbench.apply({command::SetSweep{"sweep", {{"scene.lights.7.power_w", {"1", "2"}}}}, command::StartSweep{}});
   EXPECT_FALSE(workbench.sweep().active());
-  ASSERT_THAT(workbench.messages(), SizeIs(1));
-  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("has no item '7'"));
+  EXPECT_THAT(only_message(workbench), HasSubstr("has no item '7'"));
 }
 
 TEST_F(SweepTest, MoreRunsThanTheWindowKeepsAreRefused)
@@ -288,8 +278,7 @@ TEST_F(SweepTest, MoreRunsThanTheWindowKeepsAreRefused)
   std::vector<std::string> values;
   for (int i = 1; i <= 65; ++i) values.push_back(std::to_string(i));
   workbench.apply({command::SetSweep{"sweep", {{"seed", values}}}, command::StartSweep{}});
-  ASSERT_THAT(workbench.messages(), SizeIs(1));
-  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("gives 65 runs"));
+  EXPECT_THAT(only_message(workbench), HasSubstr("gives 65 runs"));
   EXPECT_THAT(workbench.messages()[0].line, HasSubstr("nephroid run"));
   EXPECT_FALSE(workbench.sweep().active());
   workbench.apply({command::SavePreset{folder.path() / "many.json"}});
@@ -300,7 +289,7 @@ TEST_F(SweepTest, AStopKeepsWhatIsDone)
 {
   open(swept(R"({"seed": [1, 2, 3]})"));
   workbench.apply({command::StartSweep{}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return pins().size() == 1; }));
+  ASSERT_TRUE(until([&] { return pins().size() == 1; }));
   workbench.apply({command::StopSweep{}});
   EXPECT_FALSE(workbench.sweep().active());
   EXPECT_THAT(states(), ElementsAre(Queue::done, Queue::stopped, Queue::stopped));
@@ -315,12 +304,12 @@ TEST_F(SweepTest, TheButtonAndEscapeStopTheSweep)
   open(swept(R"({"seed": [1, 2]})"));
   const auto running = [&] { return workbench.sweep().active() && workbench.run().status().state == job::State::running; };
   click_on("sweep run");
-  ASSERT_TRUE(eventually([&] { frame(); }, running));
+  ASSERT_TRUE(until(running));
   click_on("sweep run");
   EXPECT_FALSE(workbench.sweep().active());
   EXPECT_THAT(states(), ElementsAre(Queue::stopped, Queue::stopped));
   click_on("sweep run");
-  ASSERT_TRUE(eventually([&] { frame(); }, running));
+  ASSERT_TRUE(until(running));
   press(ImGuiKey_Escape);
   EXPECT_FALSE(workbench.sweep().active());
   frame();
@@ -332,11 +321,11 @@ TEST_F(SweepTest, EditsWaitForTheEndOfTheSweep)
   runs.step_ms = 4;
   open(swept(R"({"seed": [1, 2]})"));
   workbench.apply({command::StartSweep{}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::running; }));
+  ASSERT_TRUE(until(job::State::running));
   preset::Preset edited = *workbench.preset();
   edited.scene.lights[0].power_w = 20;
   workbench.apply({command::Edit{"edit", edited}, command::Restart{}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workbench.sweep().active(); }));
+  ASSERT_TRUE(until([&] { return !workbench.sweep().active(); }));
   ASSERT_THAT(pins(), SizeIs(2));
   EXPECT_EQ(pins()[1].record->preset->scene.lights[0].power_w, 10);
   come_back();
@@ -348,7 +337,7 @@ TEST_F(SweepTest, AnotherPresetEndsTheSweep)
   runs.step_ms = 5;
   open(swept(R"({"seed": [1, 2, 3]})"));
   workbench.apply({command::StartSweep{}});
-  ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::running; }));
+  ASSERT_TRUE(until(job::State::running));
   ASSERT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
   EXPECT_FALSE(workbench.sweep().active());
   finish();
@@ -378,8 +367,7 @@ TEST_F(SweepTest, ASessionKeepsTheSweep)
 
 TEST_F(SweepTest, AFileThatGetsASweepIsTakenOver)
 {
-  open();
-  finish();
+  run_through();
   const int made = runs.made;
   folder.write("test.json", swept(R"({"seed": [1, 2]})"));
   workbench.apply({command::ReloadPreset{}});

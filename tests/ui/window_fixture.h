@@ -1,18 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole window without a display on fake jobs, with a mouse and keys.
+// The whole window without a display or a renderer: frames are drawn, the mouse and the keys are injected.
 #pragma once
 #include "fake_job.h"
-#include "headless.h"
+#include "ui/error/panel.h"
+#include "ui/parameters/panel.h"
+#include "ui/plan/panel.h"
+#include "ui/shell/workspace.h"
+#include "ui/spectral/dispersion/panel.h"
+#include "ui/spectral/spectra/panel.h"
+#include "ui/view/panel.h"
+#include "ui/widgets/theme.h"
 
-#include <cmath>
+#include <imgui.h>
+
+#include <ctime>
+#include <variant>
 
 namespace nephroid::test {
 
+/// Processor time of this thread: other work of the machine does not count.
+inline double thread_ms()
+{
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+class Headless {
+public:
+  Headless()
+  {
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.DisplaySize = {1000, 700};
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasTextures;
+    io.ConfigFlags |= ImGuiConfigFlags_DockingEnable;
+    io.ConfigInputTrickleEventQueue = false; // what is injected in one go arrives in one frame
+    ui::add_font();
+    ui::set_theme(1);
+  }
+  ~Headless()
+  {
+    for (ImTextureData* texture : ImGui::GetPlatformIO().Textures) release(texture);
+    ImGui::DestroyContext();
+  }
+  Headless(const Headless&) = delete;
+
+  /// One frame of the whole window; the commands are applied and kept in `commands`.
+  void frame(ui::Workspace& workspace, ui::Workbench& workbench)
+  {
+    ImGui::GetIO().DeltaTime = 1.0f / 60;
+    ImGui::NewFrame();
+    workbench.update();
+    commands = workspace.draw(workbench);
+    ImGui::Render();
+    for (ImTextureData* texture : ImGui::GetPlatformIO().Textures) serve(texture);
+    workbench.apply(commands);
+  }
+
+  void move(double x, double y) { ImGui::GetIO().AddMousePosEvent(static_cast<float>(x), static_cast<float>(y)); }
+  void button(int which, bool down) { ImGui::GetIO().AddMouseButtonEvent(which, down); }
+  void wheel(double notches) { ImGui::GetIO().AddMouseWheelEvent(0, static_cast<float>(notches)); }
+  void key(ImGuiKey key, bool down) { ImGui::GetIO().AddKeyEvent(key, down); }
+
+  ui::Commands commands;
+  template <class C>
+  const C* pushed() const
+  {
+    for (const ui::Command& command : commands)
+      if (const C* c = std::get_if<C>(&command)) return c;
+    return nullptr;
+  }
+
+private:
+  /// What a renderer would do about textures.
+  static void serve(ImTextureData* texture)
+  {
+    if (texture->Status == ImTextureStatus_WantCreate) texture->SetTexID(1);
+    if (texture->Status == ImTextureStatus_WantCreate || texture->Status == ImTextureStatus_WantUpdates)
+      texture->SetStatus(ImTextureStatus_OK);
+    if (texture->Status == ImTextureStatus_WantDestroy) release(texture);
+  }
+  static void release(ImTextureData* texture)
+  {
+    texture->SetTexID(ImTextureID_Invalid);
+    texture->SetStatus(ImTextureStatus_Destroyed);
+  }
+};
+
 /// Runs: where the window's runs come from, a FakeRuns.
-template <class Runs>
-class WindowFixtureOf : public ::testing::Test {
-protected:
-  explicit WindowFixtureOf(const std::string& layout = {}) : workspace(layout) {}
+template <class Runs = FakeRuns>
+class HeadlessWindow {
+public:
+  explicit HeadlessWindow(const std::string& layout = {}) : workspace(layout) {}
+  /// As a real window of this size, in pixels, shows a preset's file once it has a picture.
+  HeadlessWindow(const std::array<int, 2>& size, const std::string& layout, const std::string& preset) : HeadlessWindow(layout)
+  {
+    resize(size);
+    workbench.open(preset);
+    until_shown();
+    frames(5); // strips and docks take their final places
+  }
 
   Runs runs;
   TemporaryFolder folder;
@@ -27,10 +116,37 @@ protected:
   {
     for (int i = 0; i < count; ++i) frame();
   }
-  void open(const std::string& text = test::preset_text)
+  static void resize(const std::array<int, 2>& size)
   {
-    ASSERT_TRUE(workbench.open(folder.write("test.json", text)));
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return !workspace.panel<ui::ViewPanel>().texture().empty(); }));
+    ImGui::GetIO().DisplaySize = {static_cast<float>(size[0]), static_cast<float>(size[1])};
+  }
+  /// Draws frames until it holds; false where it does not come to that.
+  bool until(const std::function<bool()>& condition)
+  {
+    return eventually([&] { frame(); }, condition);
+  }
+  bool until(job::State state)
+  {
+    return until([&] { return workbench.run().status().state == state; });
+  }
+  /// Until the run in hand is of the present preset, and has shown a picture.
+  bool until_current()
+  {
+    return until([&] { return workbench.run().snapshot_is_current(); });
+  }
+  bool until_shown()
+  {
+    return until([&] { return !workspace.template panel<ui::ViewPanel>().texture().empty(); });
+  }
+  bool until_files_are_done()
+  {
+    return until([&] { return !workbench.works_on_files(); });
+  }
+  void open(const std::string& text = test::preset_text) { open_file(folder.write("test.json", text)); }
+  void open_file(const std::string& name)
+  {
+    ASSERT_TRUE(workbench.open(name));
+    ASSERT_TRUE(until_shown());
     frames(3); // strips and docks take their final places
   }
   /// As a panel does.
@@ -43,17 +159,29 @@ protected:
   /// Until the run is over and drawn.
   void finish()
   {
-    ASSERT_TRUE(eventually([&] { frame(); }, [&] { return workbench.run().status().state == job::State::finished; }));
+    ASSERT_TRUE(until(job::State::finished));
     frames(2);
+  }
+  /// Opens it and runs it to its end.
+  void run_through(const std::string& text = test::preset_text)
+  {
+    open(text);
+    finish();
+  }
+  void run_measured(const std::string& text = test::preset_text)
+  {
+    measured();
+    run_through(text);
   }
   /// The runs that follow note an error after every step.
   void measured()
   {
     runs.history = [](int steps) { return falling_history(steps); };
   }
+  const ui::ViewPanel& view() const { return workspace.template panel<ui::ViewPanel>(); }
   ui::Point middle() const
   {
-    const ui::Canvas& canvas = workspace.panel<ui::ViewPanel>().canvas();
+    const ui::Canvas& canvas = view().canvas();
     return {canvas.corner[0] + canvas.size[0] / 2, canvas.corner[1] + canvas.size[1] / 2};
   }
   void move(const ui::Point& at)
@@ -130,6 +258,18 @@ private:
   ui::Commands unread_;
 };
 
+template <class Runs>
+class WindowFixtureOf : public ::testing::Test, public HeadlessWindow<Runs> {
+protected:
+  using HeadlessWindow<Runs>::HeadlessWindow;
+};
+
 using WindowFixture = WindowFixtureOf<FakeRuns>;
+
+/// A place on the screen as the pixel that events go to.
+inline std::array<int, 2> pixel(const ui::Point& place)
+{
+  return {static_cast<int>(std::lround(place[0])), static_cast<int>(std::lround(place[1]))};
+}
 
 } // namespace nephroid::test

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real program in a real window on a virtual display: what it shows against what `nephroid run` writes, real X events, and
-// what it says where there is no display. Skipped where there is no Xvfb (or, for events, no xdotool).
+// The real program in a real window on a virtual display: what it shows against what `nephroid run` writes, real X events, and what it says
+// where there is no display. A window that is killed in the middle of edits comes back with them: what its session had kept is there;
+// NEPHROID_KILLS=20 kills twenty. Skipped where there is no Xvfb or no xdotool.
 #include "fake_job.h"
-#include "places.h"
 #include "real_window.h"
+#include "ui/state/session.h"
+#include "window_fixture.h"
 
 namespace nephroid::ui::window_test {
 
 /// Where a window of this size draws the picture of a preset.
 Placement placement_in_window(int width, int height, const std::string& preset, const std::array<int, 2>& picture)
 {
-  return test::in_window_like({width, height}, "", preset, [&](const Workspace& workspace, auto&, auto) {
-    return place(Look{}, workspace.panel<ui::ViewPanel>().canvas(), picture);
-  });
+  const test::HeadlessWindow<> like({width, height}, "", preset);
+  return place(Look{}, like.view().canvas(), picture);
 }
 
 /// Without a display.
@@ -49,7 +50,6 @@ TEST_F(NoWindow, SaysFirstThatALayoutIsNotThere)
 
 class WindowTest : public test::RealWindow {
 protected:
-  WindowTest() : RealWindow({"Xvfb"}) {}
   void SetUp() override
   {
     RealWindow::SetUp();
@@ -122,16 +122,11 @@ TEST_F(WindowTest, FrameTimesThatCannotBeWrittenAreRefusedAtOnce)
 
 TEST_F(WindowTest, WhatCannotBePinnedIsSaid)
 {
-  const std::string preset = folder.write("test.json", test::preset_text);
-  std::filesystem::create_directory(folder.path() / "empty");
-  folder.write("a.png", "no picture");
-  for (const char* name : {"nosuchrun", "empty", "a.png", "test.json"}) {
-    const std::string file = (folder.path() / name).string();
-    const test::Ended ended = run({preset, file, "--frames", "1", "--screenshot", "screen.png"});
-    EXPECT_EQ(ended.exit_code, 2) << name;
-    EXPECT_THAT(ended.err, HasSubstr("\nnephroid: " + file + ": ")) << name;
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 2) << "the frames' times, then one line: " << ended.err;
-  }
+  const std::string preset = folder.write("test.json", test::preset_text), wrong = folder.write("a.png", "no picture");
+  const test::Ended ended = run({preset, wrong, "--frames", "1", "--screenshot", "screen.png"});
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("\nnephroid: " + wrong + ": "));
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 2) << "the frames' times, then one line: " << ended.err;
 }
 
 class WindowEvents : public test::RealWindow {};
@@ -167,6 +162,56 @@ TEST_F(WindowEvents, AreFollowed)
   EXPECT_NEAR(saved.scene.camera.position[1], 0, 0.05);
   EXPECT_EQ(screen().width, 1000);
   EXPECT_EQ(screen().height, 800);
+}
+
+class KilledWindow : public test::RealWindow {
+protected:
+  /// Edits that the newest session has kept; -1 while there is none.
+  int kept() const
+  {
+    int edits = -1;
+    fs::file_time_type newest = fs::file_time_type::min();
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.path() / "state/nephroid/sessions", ignored)) {
+      const fs::path file = entry.path() / "session.json";
+      const auto written = fs::last_write_time(file, ignored);
+      if (ignored || written < newest) continue;
+      newest = written;
+      const Session session = parse_session(read_file(file), file.string());
+      edits = session.edits ? static_cast<int>(session.edits->index) : -1;
+    }
+    return edits;
+  }
+};
+
+TEST_F(KilledWindow, ComesBackWithItsEdits)
+{
+  const char* asked = std::getenv("NEPHROID_KILLS");
+  const int kills = asked ? std::atoi(asked) : 2;
+  std::mt19937 random(1);
+  preset::Preset endless = preset::parse_preset(test::preset_text, "killed.json");
+  endless.stop.passes = 100000;
+  std::vector<std::string> arguments{folder.write("killed.json", preset::to_json(endless))};
+  int kept_before = 0;
+  for (int i = 0; i < kills; ++i) {
+    test::PlayedWindow window(arguments, folder.path(), folder.path());
+    // As it was before: the first has its file, the others begin with nothing but the session.
+    window.until("the session is kept", [&] { return kept() >= kept_before && window.title().find("Test") != std::string::npos; });
+    const int edits = 1 + static_cast<int>(random() % 3);
+    window.move({300, 400});
+    for (int edit = 0; edit < edits; ++edit) { // the camera is a notch further away; turns within 0.6 s would be one edit
+      window.turn_wheel();
+      std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    }
+    if (i % 2 == 0) window.until("an edit is kept", [&] { return kept() > kept_before; });
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 1500));
+    EXPECT_EQ(window.kill().signal, SIGKILL);
+    EXPECT_GE(kept(), kept_before) << "nothing that was kept is lost";
+    EXPECT_LE(kept(), kept_before + edits);
+    kept_before = kept();
+    arguments.clear();
+  }
+  EXPECT_GT(kept_before, 0);
 }
 
 } // namespace nephroid::ui::window_test
