@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checkpoints of every engine: the input is what lies between a right header and a right hash. It is loaded, or refused. Whether what is
-// loaded is a state that a run can have is not asked: nothing but the program itself writes that hash.
+// Checkpoints of every engine: the first byte chooses a job; the rest is a header, before the job's state and a right hash, or a whole
+// file. Only what the job wrote is loaded. A wrong state under a right hash is not asked for: nothing but the program writes that hash.
 #include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "measure/measured_job.h"
@@ -19,7 +19,8 @@
 namespace nephroid::fuzz {
 namespace {
 
-constexpr std::size_t header_bytes = 72; ///< run/checkpoint.cpp
+constexpr std::size_t header_bytes = 72;   ///< run/checkpoint.cpp
+constexpr unsigned char only_header = 130; ///< of a first byte, whose rest by the jobs' number chooses one
 
 std::string inverse_by(const std::string& method)
 {
@@ -40,6 +41,7 @@ const std::string presets[] = {
       {"shape": {"type": "box", "size": [8, 1, 8]}, "material": "w", "transform": {"translate": [0, -3, 0]}}]}})",
     inverse_by("assign"), inverse_by("thesis"), inverse_by("lens")};
 constexpr std::size_t jobs_in_all = std::size(presets);
+static_assert(only_header % jobs_in_all == 0);
 
 /// A job that has begun, and its checkpoint.
 struct Begun {
@@ -85,19 +87,26 @@ Begun& begun(std::size_t which)
 void read(std::string_view input)
 {
   if (input.empty()) return;
-  Begun& its = begun(static_cast<unsigned char>(input[0]) % jobs_in_all);
-  const auto load = [&](std::string_view body) {
-    write("checkpoint.bin", file_of(its.header, body));
+  const auto first = static_cast<unsigned char>(input[0]);
+  Begun& its = begun(first % jobs_in_all);
+  const std::string right = file_of(its.header, its.body), given(input.substr(1));
+  const std::string file = first < only_header ? given : file_of(given, its.body);
+  const auto load = [&](const std::string& bytes) {
+    write("checkpoint.bin", bytes);
     run::load_checkpoint(folder(), its.prepared, context(), *its.job);
   };
-  load(its.body); // whatever the last input left
-  load(input.substr(1));
+  accepts([&] { load(file); });
+  load(right); // after whatever that left
 }
 
 std::vector<std::string> seeds()
 {
   std::vector<std::string> seeds;
-  for (std::size_t which = 0; which < jobs_in_all; ++which) seeds.push_back(static_cast<char>(which) + begun(which).body);
+  for (std::size_t which = 0; which < jobs_in_all; ++which) {
+    const Begun& its = begun(which);
+    seeds.push_back(static_cast<char>(which) + file_of(its.header, its.body));
+    seeds.push_back(static_cast<char>(only_header + which) + its.header);
+  }
   return seeds;
 }
 

@@ -84,11 +84,12 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments)
   using namespace nephroid::fuzz;
   constexpr std::string_view flag = "--seeds=";
   const std::string_view last = (*arguments)[*count - 1];
+  const std::vector<std::string> first = seeds(); // with what every input needs, as a job that has begun: its time is no input's
   if (!last.starts_with(flag)) return 0;
   const std::filesystem::path into = last.substr(flag.size());
   std::filesystem::create_directories(into);
   int number = 0;
-  for (const std::string& seed : seeds()) std::ofstream(into / fmt::format("seed-{}", number++), std::ios::binary) << seed;
+  for (const std::string& seed : first) std::ofstream(into / fmt::format("seed-{}", number++), std::ios::binary) << seed;
   std::exit(0);
 }
 

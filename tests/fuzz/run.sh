@@ -21,7 +21,7 @@ export UBSAN_OPTIONS=print_stacktrace=1
 export build seconds
 mkdir -p "$build/corpus" "$build/findings" "$build/logs"
 # The words that a preset may hold.
-grep -o '"[A-Za-z_$]*"' "$root/presets/schema.json" | sort -u >"$build/words"
+grep -o '"[A-Za-z_$][A-Za-z_$]*"' "$root/presets/schema.json" | sort -u >"$build/words"
 
 fuzz() {
   local name=$1 program=$build/tests/fuzz/fuzz_$1 corpus=$build/corpus/$1 log=$build/logs/$1
