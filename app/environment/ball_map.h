@@ -2,8 +2,6 @@
 // What a sphere about a ball should get, from rays in double precision: what baked spheres are held against.
 #pragma once
 #include "environment/bake/bake.h"
-#include "environment/bake/sphere_map.h"
-#include "optics/ball.h"
 #include "optics/fresnel.h"
 
 #include <functional>

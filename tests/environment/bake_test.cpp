@@ -4,7 +4,7 @@
 #include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "environment/bake/bake_file.h"
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
 #include "environment/ball_map.h"
 #include "optics/colour.h"
 #include "optics/fresnel.h"

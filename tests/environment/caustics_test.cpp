@@ -4,10 +4,7 @@
 #include "tests/support/test.h"
 
 #include "environment/bake/bake.h"
-#include "environment/bake/directions.h"
 #include "scene/bvh.h"
-#include "scene/ray.h"
-#include "scene/rotation.h"
 #include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"

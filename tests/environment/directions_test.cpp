@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The directions of a bake and the map of a sphere; which baked directions stand for a light, and how their spheres are turned; directions
 // that are baked while they are shown.
-#include "environment/bake/directions.h"
+#include "environment/bake/bake.h"
 #include "environment/bake/own_directions.h"
-#include "environment/bake/sphere_map.h"
-#include "environment/light/turned_sets.h"
-#include "scene/ray.h"
-#include "scene/rotation.h"
+#include "environment/light/distant_lights.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
 #include "tests/environment/views.h"
 #include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"

@@ -4,7 +4,7 @@
 #include "environment/occlusion/occlusion.h"
 #include "environment/occlusion/samples.h"
 #include "environment/occlusion/surroundings.h"
-#include "scene/ray.h"
+#include "scene/bvh.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"

@@ -2,11 +2,9 @@
 // The cube's geometry against closed forms, and its light against sums over the texels of the map.
 #include "environment/light/irradiance.h"
 #include "environment/segment/cube.h"
-#include "environment/segment/cube_map.h"
 #include "environment/segment/quality.h"
 #include "scene/bvh.h"
-#include "scene/ray.h"
-#include "scene/rotation.h"
+#include "scene/scene.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"
 #include "tests/support/test.h"

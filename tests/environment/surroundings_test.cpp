@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where baked objects stand in the scene: their vertices there are those of the bake, turned and moved.
-#include "environment/bake/placement.h"
+#include "environment/bake/caster.h"
 #include "environment/occlusion/occlusion.h"
-#include "environment/occlusion/surface_points.h"
+#include "environment/occlusion/samples.h"
 #include "environment/occlusion/surroundings.h"
-#include "scene/corners.h"
+#include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 #include "tests/environment/views.h"

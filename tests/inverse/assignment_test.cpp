@@ -4,7 +4,7 @@
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
 #include "inverse/assign/footprint.h"
-#include "inverse/assign/smoothing.h"
+#include "inverse/assign/cost.h"
 #include "inverse/bending.h"
 #include "inverse/pictures/target.h"
 #include "tests/inverse/searches.h"

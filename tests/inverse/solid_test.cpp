@@ -4,9 +4,8 @@
 #include "image/image.h"
 #include "inverse/bending.h"
 #include "inverse/facets/heights.h"
-#include "inverse/facets/mesh_files.h"
+#include "inverse/facets/files.h"
 #include "inverse/facets/solid.h"
-#include "inverse/facets/workshop.h"
 #include "tests/inverse/sound.h"
 #include "tests/support/temporary_folder.h"
 

@@ -12,7 +12,7 @@
 // from above, which does not change its pattern, because reflection at an upright wall keeps the slope. The strip dz of incoming light
 // spreads over the area |1 - 2 s / cos phi| dz ds of floor: E = E0 sin(elevation) / |1 - 2 s / cos phi|, summed over all rays through a
 // point.
-#include "optics/ball.h"
+#include "optics/fresnel.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/temporary_folder.h"
 

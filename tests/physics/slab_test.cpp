@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plate with parallel faces: light leaves it in the direction it came from, moved aside and weaker, and otherwise as it was.
-#include "optics/ball.h"
 #include "optics/fresnel.h"
 #include "optics/spectrum.h"
 #include "tests/support/closed_form.h"

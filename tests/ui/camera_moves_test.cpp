@@ -5,8 +5,7 @@
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/test.h"
 #include "ui/view/camera.h"
-#include "ui/view/camera_moves.h"
-#include "ui/view/picking.h"
+#include "ui/view/sight.h"
 #include "ui/view/placement.h"
 
 #include <glm/glm.hpp>

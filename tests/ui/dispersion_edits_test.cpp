@@ -9,7 +9,6 @@
 #include "tests/support/temporary_folder.h"
 #include "ui/spectral/dispersion/model.h"
 #include "ui/spectral/dispersion/panel.h"
-#include "ui/state/dielectrics.h"
 #include "ui/state/selection.h"
 
 namespace nephroid::ui::dispersion_edits_test {

@@ -9,7 +9,6 @@
 #include "tests/support/eventually.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
-#include "ui/environment/lights.h"
 #include "ui/environment/model.h"
 #include "ui/environment/picture.h"
 

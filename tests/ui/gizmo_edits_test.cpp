@@ -3,10 +3,8 @@
 // object before, turned.
 #include "ui/view/gizmo_edits.h"
 
-#include "scene/rotation.h"
 #include "scene/scene.h"
 #include "scenes.h"
-#include "seen_scene.h"
 #include "tests/support/loaded_scenes.h"
 #include "ui/view/gizmo.h"
 

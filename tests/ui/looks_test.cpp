@@ -2,10 +2,8 @@
 // How the View shows a picture: layers, tone curves, false colour; and that a picture is saved as it is shown.
 #include "image/image.h"
 #include "layered_runs.h"
-#include "ui/state/shown_pixels.h"
 #include "ui/state/tone.h"
 #include "ui/view/camera.h"
-#include "ui/view/camera_text.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::looks_test {

@@ -4,7 +4,7 @@
 // it looks for what nobody sees. And keys and clicks with modifiers that all arrive between two frames.
 #include "tests/support/process_state.h"
 #include "tests/support/test.h"
-#include "ui/shell/input_events.h"
+#include "ui/shell/glfw_window.h"
 #include "window_fixture.h"
 
 #include <imgui_internal.h>

@@ -8,7 +8,7 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "ui/shell/panels.h"
-#include "ui/view/picking.h"
+#include "ui/view/sight.h"
 
 #include <memory>
 #include <string>

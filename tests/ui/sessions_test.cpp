@@ -7,7 +7,7 @@
 #include "scenes.h"
 #include "ui/environment/panel.h"
 #include "ui/inverse/annealing/panel.h"
-#include "ui/spectral/dispersion/edits.h"
+#include "ui/spectral/dispersion/model.h"
 
 namespace nephroid::ui::sessions_test {
 

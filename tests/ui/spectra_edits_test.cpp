@@ -4,9 +4,7 @@
 #include "optics/spectrum.h"
 #include "scene/materials.h"
 #include "scenes.h"
-#include "spectra_scene.h"
 #include "spectral/clusters/clusters.h"
-#include "spectral/clusters/scene_clusters.h"
 #include "ui/spectral/spectra/light_edits.h"
 
 namespace nephroid::ui::spectra_edits_test {

@@ -4,7 +4,6 @@
 #include "scene/scene.h"
 #include "spectral/effort/emitters.h"
 #include "spectral/effort/importance.h"
-#include "spectral/effort/variance_deal.h"
 #include "spectral/engine.h"
 #include "spectral/tables/run_tables.h"
 #include "tests/support/errors.h"

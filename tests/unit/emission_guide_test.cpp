@@ -2,11 +2,10 @@
 // Where photons and samples go: what is learned about where photons matter, the cells that a film of layers has, the pixels in which a path
 // may meet glass.
 #include "scene/bvh.h"
-#include "scene/ray.h"
 #include "scene/scene.h"
 #include "spectral/effort/emission_guide.h"
-#include "spectral/glass_pixels.h"
-#include "spectral/relight/layer_cells.h"
+#include "spectral/sampled_pixels.h"
+#include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/presets.h"

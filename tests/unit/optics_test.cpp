@@ -3,7 +3,6 @@
 // published figures; the spectra of the sRGB primaries: the right colour, and nothing smoother has it.
 #include "optics/colour.h"
 #include "optics/fresnel.h"
-#include "optics/primary_spectra.h"
 #include "optics/spectrum.h"
 #include "tests/support/errors.h"
 

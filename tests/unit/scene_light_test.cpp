@@ -2,13 +2,13 @@
 // What a loaded scene has on the 401 wavelengths: lights, materials of every kind, environments and what is refused of their pictures, and
 // the tables that photons are drawn by from an environment.
 #include "image/image.h"
-#include "optics/primary_spectra.h"
-#include "scene/environment_light.h"
+#include "optics/colour.h"
+#include "scene/environment.h"
 #include "scene/materials.h"
 #include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/temporary_folder.h"
-#include "tracing/sky_tables.h"
+#include "tracing/scene_tables.h"
 
 namespace nephroid::scene::scene_light_test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is written over the View's picture: a few words, and scales of colours with their numbers along its right edge.
 #pragma once
-#include "ui/state/difference.h"
+#include "ui/state/comparing.h"
 #include "ui/state/tone.h"
 #include "ui/view/placement.h"
 #include "ui/widgets/theme.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/sight.h"
 
-#include "scene/ray.h"
-#include "scene/rotation.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #pragma once
 #include "preset/preset.h"
 #include "run/run.h"
-#include "scene/corners.h"
+#include "scene/scene.h"
 #include "ui/view/placement.h"
 
 #include <glm/glm.hpp>

@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "environment/bake/bake.h"
 #include "optics/colour.h"
-#include "tracing/scene_buffers.h"
 #include "tracing/world.h"
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>

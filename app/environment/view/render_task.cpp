@@ -6,8 +6,6 @@
 #include "environment/occlusion/surroundings.h"
 #include "environment/settings.h"
 #include "scene/environment.h"
-#include "scene/environment_light.h"
-#include "scene/move.h"
 #include "scene/scene.h"
 #include "tracing/omissions.h"
 

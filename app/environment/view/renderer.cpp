@@ -5,9 +5,7 @@
 #include "environment/colours.h"
 #include "environment/occlusion/surroundings.h"
 #include "environment/to_float4.h"
-#include "environment/view/colours.h"
 #include "tracing/scene_tables.h"
-#include "tracing/sky_tables.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,6 @@
 
 #include "base/error.h"
 #include "optics/colour.h"
-#include "optics/primary_spectra.h"
 #include "optics/spectrum.h"
 #include "scene/materials.h"
 

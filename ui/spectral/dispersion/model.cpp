@@ -6,8 +6,6 @@
 #include "scene/materials.h"
 #include "scene/scene.h"
 #include "spectral/clusters/clusters.h"
-#include "spectral/clusters/scene_clusters.h"
-#include "ui/state/dielectrics.h"
 #include "ui/state/selection.h"
 
 #include <algorithm>
