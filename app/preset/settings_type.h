@@ -42,22 +42,22 @@ void* settings_struct(Settings& settings)
 template <class S>
 const ValueType& recipe_type()
 {
-  using Recipe = std::optional<Settings>;
+  using Optional = std::optional<Settings>;
   static const ValueType type{.kind = Kind::optional,
                               .item = &type_of<S>(),
                               .count = [](const void* recipe) -> std::size_t {
-                                const auto& settings = *static_cast<const Recipe*>(recipe);
+                                const auto& settings = *static_cast<const Optional*>(recipe);
                                 return settings && settings->type().section == type_of<S> ? 1 : 0;
                               },
                               .resize =
                                   [](void* recipe, std::size_t count) {
-                                    static_cast<Recipe*>(recipe)->reset();
+                                    static_cast<Optional*>(recipe)->reset();
                                     if (count == 0) return;
                                     const auto& types = settings_types();
-                                    static_cast<Recipe*>(recipe)->emplace(**std::find_if(
+                                    static_cast<Optional*>(recipe)->emplace(**std::find_if(
                                         types.begin(), types.end(), [](const SettingsType* t) { return t->section == type_of<S>; }));
                                   },
-                              .at = [](void* recipe, std::size_t) { return settings_struct<S>(**static_cast<Recipe*>(recipe)); }};
+                              .at = [](void* recipe, std::size_t) { return settings_struct<S>(**static_cast<Optional*>(recipe)); }};
   return type;
 }
 

@@ -46,8 +46,8 @@ static inline int emitter_of(__global const DeviceEmitter* emitters, int count, 
 // What a photon starts with.
 typedef struct {
   int emitter;
-  float4 emission; // in [0, 1): target, direction (2); w: the film's dither
-  float2 place;    // in [0, 1): on an area light, or in the environment
+  float4 emission;  // in [0, 1): target, direction (2); w: the film's dither
+  float2 place;     // in [0, 1): on an area light, or in the environment
   float wavelength; // in [0, 1): which of its cluster
 } PhotonStart;
 
@@ -75,7 +75,7 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   const uint index = (uint)number; // a sequence has 2^32 points; then another begins
   const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | pass % NEPHROID_FILM_HALVES);
   const uint4 bits = sobol4_bits(seed, sequence, 0u, index);
-  const uint below = (uint)(start.emission.x * 0x1p24f); // of the fourth number: 24 bits more
+  const uint below = (uint)(start.emission.x * 0x1p24f);         // of the fourth number: 24 bits more
   start.emission.xyz = convert_float3(bits.zxy >> 8) * 0x1p-24f; // the first two dimensions are the best pair
   if (placed) start.place = sobol4(seed, sequence, 1u, index).xy;
   // The fourth number times the light's photons: a whole photon above, a fraction of 32 bits below. Fits 2^32 photons.
@@ -97,8 +97,8 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
 
 // Where a photon ended, and what is left of its power there.
 typedef struct {
-  int outcome; // OUTCOME_*
-  float left;  // 0..1
+  int outcome;     // OUTCOME_*
+  float left;      // 0..1
   Surface surface; // of a deposit
   uint triangle;
   float3 xyz; // of a deposit: reflected light, as if the photon carried the light's whole power

@@ -16,7 +16,8 @@
 #define STRETCH_SPLATS 16
 #define STRETCH_SHORTEST 0.1f
 // The farthest that the last directions of a streak may lie apart for D' to say where they go, in radians. A rainbow of streaks some
-// three times as wide is off by 3 % (docs/notebook/differentials.md). Also where D' is infinite, at the critical angle, a photon is not stretched.
+// three times as wide is off by 3 % (docs/notebook/differentials.md). Also where D' is infinite, at the critical angle, a photon is not
+// stretched.
 #define STRETCH_WIDEST 0.01f
 
 // How a photon is splatted: `count` splats, of the light of its whole cluster or of what its band stands for alone. More than one splat:

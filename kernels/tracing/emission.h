@@ -11,7 +11,7 @@
 typedef struct {
   float3 origin, direction; // the photon flies along origin + t direction, t > -behind
   float behind;             // the light is this far behind the origin, which lies beside a small target: see aim
-  float watts; // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted
+  float watts;              // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted
 } Emission;
 
 // Two vectors that make an orthonormal frame with the unit vector n (Duff et al. 2017).
@@ -137,7 +137,8 @@ static inline Emission emit_from_area(const DeviceLight* light, __global const D
   return emission;
 }
 
-static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random)
+static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
+                                        float4 random)
 {
   const float3 direction = light->direction.xyz;
   const int target_count = light->target_count;
@@ -169,7 +170,8 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
 }
 
 // targets: the whole table, of which a light has its own list. Of the environment: as source_of (world.h) has turned it for one photon.
-static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random, float2 place)
+static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random,
+                            float2 place)
 {
   targets += light->first_target;
   if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT)) return emit_directional(light, targets, scene, random);

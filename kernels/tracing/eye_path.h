@@ -35,7 +35,8 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
   const float cosine = max(dot(arrival.direction, normal), 0.0f);
   const float cos_light = -dot(arrival.direction, light->direction.xyz);
   float watts_per_steradian = light->radiometric / (4.0f * PI_F);
-  if (is_light(light, LIGHT_SPOT)) watts_per_steradian = in_spot(light, -arrival.direction) ? light->radiometric / light->solid_angle : 0.0f;
+  if (is_light(light, LIGHT_SPOT))
+    watts_per_steradian = in_spot(light, -arrival.direction) ? light->radiometric / light->solid_angle : 0.0f;
   if (is_light(light, LIGHT_AREA)) watts_per_steradian = light->radiometric * max(cos_light, 0.0f) / PI_F;
   const float metres = arrival.distance * metres_per_unit;
   arrival.irradiance = watts_per_steradian * cosine / (metres * metres);
@@ -48,7 +49,8 @@ static inline float irradiance_of(const World* world, int light_index, const Pat
 {
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
-  const float4 place = is_light(&light, LIGHT_AREA) ? random4(seed, sample, pixel, (uint)light.number, STREAM_CAMERA_LIGHT) : (float4)(0.0f);
+  const float4 place =
+      is_light(&light, LIGHT_AREA) ? random4(seed, sample, pixel, (uint)light.number, STREAM_CAMERA_LIGHT) : (float4)(0.0f);
   const Arrival arrival = arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
   if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
   const float3 from = start_on_side(surface, side);
@@ -95,10 +97,10 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
   return material_of(world, object).type == MATERIAL_DIFFUSE && camera->inside.count == 0;
 }
 
-// Takes a path that has met `hit` on through glass and mirrors in one band to a diffuse surface or out of the scene. `hit` and, of a diffuse
-// surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost: radiance
-// over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and refraction.
-// likelier: the path takes the likelier of the two everywhere, for a first picture without noise.
+// Takes a path that has met `hit` on through glass and mirrors in one band to a diffuse surface or out of the scene. `hit` and, of a
+// diffuse surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost:
+// radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and
+// refraction. likelier: the path takes the likelier of the two everywhere, for a first picture without noise.
 static inline float reach_end(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel, uint stream,
                               bool likelier, Surface* surface)
 {

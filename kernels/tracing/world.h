@@ -53,8 +53,8 @@ typedef struct {
 
 typedef struct {
   float3 origin, direction;
-  uint skip;    // the triangle that the path leaves
-  Media media;  // that enclose it
+  uint skip;   // the triangle that the path leaves
+  Media media; // that enclose it
   Losses losses;
   float behind; // the path begins this far behind `origin`: 0 but on its first way (Emission)
   Differential differential;
@@ -105,7 +105,8 @@ static inline Band choose_band(const World* world, int light, int cluster, float
 }
 
 // Carries the path's derivatives to a surface and across the bend there, before `path` itself goes on.
-static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface, const Band* band, const Bend* bend)
+static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface, const Band* band,
+                                     const Bend* bend)
 {
 #if NEPHROID_DIFFERENTIALS
   // From the path's origin: where that is not the light itself (Emission), nothing depends on the wavelength yet.
@@ -114,9 +115,9 @@ static inline void bend_differential(const World* world, Path* path, uint triang
   __global const float* n_of = index_of_band(world, band);
   __global const float* slope_of = world->index_slope + band->cluster * world->scene.material_count;
   const int near = bend->near_material, far = bend->far_material;
-  differential_through_bend(&path->differential, &world->geometry, triangle, surface, world->objects[surface->object].smooth != 0, path->direction,
-                            bend, near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], near < 0 ? 0.0f : slope_of[near],
-                            far < 0 ? 0.0f : slope_of[far]);
+  differential_through_bend(&path->differential, &world->geometry, triangle, surface, world->objects[surface->object].smooth != 0,
+                            path->direction, bend, near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far],
+                            near < 0 ? 0.0f : slope_of[near], far < 0 ? 0.0f : slope_of[far]);
 #endif
 }
 
@@ -135,7 +136,8 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   } else
 #endif
   {
-    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice, &bend, n_ratio)) return false;
+    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice, &bend, n_ratio))
+      return false;
   }
   bend_differential(world, path, triangle, surface, band, &bend);
   path->direction = bend.direction;

@@ -3,8 +3,8 @@
 // colours. Bakes on disk whose header makes no sense: refused before anything is allocated for them.
 #include "base/files.h"
 #include "base/hashed_bytes.h"
-#include "environment/bake/bake_file.h"
 #include "environment/bake/bake.h"
+#include "environment/bake/bake_file.h"
 #include "environment/ball_map.h"
 #include "optics/colour.h"
 #include "optics/fresnel.h"

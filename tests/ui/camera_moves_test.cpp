@@ -5,8 +5,8 @@
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/test.h"
 #include "ui/view/camera.h"
-#include "ui/view/sight.h"
 #include "ui/view/placement.h"
+#include "ui/view/sight.h"
 
 #include <glm/glm.hpp>
 

@@ -165,8 +165,7 @@ TEST(ShownPixels, AreRightOnEitherSideOfEveryStep)
     EXPECT_EQ(int(shown_byte(value * 1.0005f)), byte);
     EXPECT_EQ(int(shown_byte(value * 0.9995f)), byte - 1);
     float near = value * 0.99999f; // and float by float, where the two have to step at the same one
-    for (int i = 0; i < 400; ++i, near = std::nextafter(near, 2.0f))
-      ASSERT_EQ(int(shown_byte(near)), int(image::shown(near, 1))) << near;
+    for (int i = 0; i < 400; ++i, near = std::nextafter(near, 2.0f)) ASSERT_EQ(int(shown_byte(near)), int(image::shown(near, 1))) << near;
   }
 }
 

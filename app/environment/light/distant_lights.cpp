@@ -6,11 +6,11 @@
 #include "environment/bake/bake.h"
 #include "optics/colour.h"
 #include "tracing/world.h"
-#include <glm/gtc/quaternion.hpp>
-#include <glm/gtx/quaternion.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtx/quaternion.hpp>
 
 namespace nephroid::environment {
 namespace {

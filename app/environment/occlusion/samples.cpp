@@ -2,8 +2,8 @@
 #include "environment/occlusion/samples.h"
 
 #include "base/parallel.h"
-#include "scene/scene.h"
 #include "scene/bvh.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solid as files: meshes in millimetres, and what a workshop needs beside them: the object's figures, its facets as a list, and a height
-// map of their side.
+// The solid as files: meshes in millimetres, and what a workshop needs beside them: the object's figures, its facets as a list, and a
+// height map of their side.
 #pragma once
 #include "base/bytes.h"
 #include "image/image.h"
