@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The traversal of kernels/tracing/bvh.h against every triangle in double precision. Where a ray passes an edge within the rounding of
-// coordinates either side is right (exact_hits.h); nothing else may differ.
+// coordinates either side is right; nothing else may differ.
 #include "check/check.h"
 #include "check/tracer.h"
 #include "scene/scene.h"

@@ -9,7 +9,7 @@
 namespace nephroid::environment {
 
 /// [401]: what a wavelength of white light is in linear sRGB; all together are (1, 1, 1). An environment's colours stand for spectra of the
-/// three primaries (optics/primary_spectra.h), so white is the sum of these.
+/// three primaries (optics/colour.h), so white is the sum of these.
 std::vector<shared::float4> white_light();
 
 /// [row of the lights' tables][reflector]: what a reflector sends back of a light, linear sRGB.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces, which are triangle meshes and ellipsoids: the plain data, reading meshes from files, checks. Shapes made by the program are in
-// shapes.h.
+// Surfaces, which are triangle meshes and ellipsoids: the plain data, reading meshes from files, checks. Shapes that the program makes are
+// declared in scene.h.
 #pragma once
 #include <glm/glm.hpp>
 

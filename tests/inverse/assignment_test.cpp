@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits.
+// Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits. Their cost
+// and its smoothing.
 #include "base/files.h"
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"

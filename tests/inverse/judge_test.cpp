@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The judge against closed forms: a flat slab, a single facet's spot, a wall's shadow, sums of light.
+// The judge against closed forms: a flat slab, a single facet's spot, a wall's shadow, sums of light; how a
+// facet bends light, and its footprint.
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 #include "inverse/judge.h"

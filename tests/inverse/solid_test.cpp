@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object is one closed solid, whatever its facets are.
+// The object is one closed solid, whatever its facets are; the files it is written to.
 #include "base/files.h"
 #include "image/image.h"
 #include "inverse/bending.h"

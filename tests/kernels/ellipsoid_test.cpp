@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/fresnel.h in single precision against optics/fresnel.h in double precision.
+// kernels/tracing/fresnel.h in single precision against optics/fresnel.h in double precision; rays that meet an ellipsoid.
 #include "check/tracer.h"
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"

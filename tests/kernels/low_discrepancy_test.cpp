@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/random.h against the published test vectors of its generator. samplers_test.cpp tests the distribution of its uniforms.
+// Low-discrepancy sequences, and the guide of emission.
 #include "kernels/tracing/shared_types.h"
 #include "spectral/effort/emission_guide.h"
 #include "spectral/effort/emitters.h"

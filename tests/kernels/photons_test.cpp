@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has.
+// kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has. Photons against an independent tracer;
+// photon maps.
 #include "kernels/tracing/shared_types.h"
 #include "spectral/maps/photon_map.h"
 #include "tests/support/reference_photons.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The curve in the coffee cup. Parallel light meets the inside of a mirror cylinder; its caustic is a nephroid.
+// A ball as a lens is below. The curve in the coffee cup. Parallel light meets the inside of a mirror cylinder; its caustic is a nephroid.
 //
 // Seen along the axis, with R = 1 and light along +x: a ray at height z = sin(phi) meets the wall at P = (cos phi, sin phi), where the
 // normal is -P. Reflection turns its direction d = (1, 0) into d - 2 (d.P) P = -(cos 2 phi, sin 2 phi), so a ray next to it, d phi farther,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A plate with parallel faces: light leaves it in the direction it came from, moved aside and weaker, and otherwise as it was.
+// Balls; the critical angle and Brewster's.
 #include "optics/fresnel.h"
 #include "optics/spectrum.h"
 #include "tests/support/closed_form.h"

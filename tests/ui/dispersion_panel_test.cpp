@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel "Dispersion" under an injected mouse: points are dragged, added and removed, clusters follow, files are loaded, what is
+// The panel "Dispersion" under an injected mouse: points are dragged, added and removed, clusters follow, what is
 // wrong becomes a message. Rows that come or go while one is dragged: the drag ends, and no other row goes where the mouse goes.
 #include "dispersion_fixture.h"
 

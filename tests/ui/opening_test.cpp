@@ -75,6 +75,9 @@ TEST_F(OpeningTest, OnceTheChangesAreSavedWhatWaitedGoesOn)
   workbench.apply({command::Open{second}});
   workbench.apply({command::SavePreset{folder.path() / "missing" / "first.json"}});
   EXPECT_EQ(workbench.question(), Question::unsaved) << "saving failed: the question stays";
+  EXPECT_TRUE(workbench.edits()->modified());
+  ASSERT_FALSE(workbench.messages().empty());
+  EXPECT_TRUE(workbench.messages().back().error);
   EXPECT_EQ(workbench.preset()->name, "Test");
   workbench.apply({command::Ask{Question::save_preset}}); // "Save as..." in the dialog
   workbench.apply({command::SavePreset{folder.path() / "third.json"}});

@@ -5,6 +5,8 @@
 #include "scene/materials.h"
 #include "scenes.h"
 #include "spectral/clusters/clusters.h"
+#include "spectral/effort/importance.h"
+#include "ui/spectral/spectra/curves.h"
 #include "ui/spectral/spectra/light_edits.h"
 
 namespace nephroid::ui::spectra_edits_test {

@@ -106,7 +106,7 @@ TEST_F(SpectraPanelTest, RowsAreAddedAndRemoved)
   EXPECT_THAT(workbench.messages()[0].line, HasSubstr("at least 2 must stay"));
 }
 
-// row_drags_test.cpp has the other ways in which rows go while one is dragged.
+// dispersion_panel_test.cpp has the other ways in which rows go while one is dragged.
 TEST_F(SpectraPanelTest, DeleteWhileARowIsDraggedMovesNoOther)
 {
   open_room(table);

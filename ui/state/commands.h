@@ -194,7 +194,7 @@ struct SavePicture {
 struct OpenResult {
   std::string file; ///< its name
 };
-/// The report over the pinned runs and the present one (run_report.h), in the background.
+/// The report over the pinned runs and the present one (run_record.h), in the background.
 struct WriteReport {
   std::filesystem::path file;
 };

@@ -42,7 +42,7 @@ struct NearDirection {
   double weight = 0; ///< above 0; all together 1
 };
 
-/// The baked directions about one that light goes in: where it comes from is a point of a face of the cube (bake.h), and those are
+/// The baked directions about one that light goes in: where it comes from is a point of a face of the cube (bake/bake.h), and those are
 /// the corners of its cell in the face's grid, with bilinear weights. 1 to 4; just itself of a baked direction. travel: of any length but
 /// 0.
 std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count);

@@ -13,7 +13,7 @@
 
 namespace nephroid::inverse {
 
-/// Lowers weighted_squares(), and what smoothing adds to it (smoothing.h). A sweep goes through all facets in a random order, in batches of
+/// Lowers weighted_squares(), and what smoothing adds to it (cost.h). A sweep goes through all facets in a random order, in batches of
 /// a few: every facet of a batch looks for its slope at once, on as many threads as there are, among the light as it is before the batch;
 /// then one after the other takes what it found if that is better than what it had. So no sweep makes the sum larger, and the number of
 /// threads changes no bit. When a sweep gains less than a hundredth of the sum, the last one moves all facets together: see Refinement,

@@ -48,7 +48,7 @@ public:
 
   /// The slope with the lowest sum over receivers and cells of lack * a + weight * a^2, a being the facet's light there, of equals the
   /// first; a is that of a facet as large as if it lay flat. Empty: the facet can reach no point of the lattice.
-  /// All three take off n . pull, n being the facet's normal: see smoothing.h.
+  /// All three take off n . pull, n being the facet's normal: see cost.h.
   std::optional<glm::dvec2> best(std::size_t facet, std::span<const Lack> lacks, const glm::dvec3& pull = glm::dvec3(0)) const;
 
   /// The same sum for one slope, of the facet's true footprint and power.
