@@ -19,7 +19,7 @@ protected:
   Ended run_to(const std::string& preset, const std::string& name, std::vector<std::string> more = {}) const
   {
     more.insert(more.begin(), {"run", "environment/" + preset, "-o", name, "--set", "environment.resolution=32", "--set",
-                               "environment.photons=30000", "--set", "scene.camera.resolution=[420, 220]"});
+                               "environment.photons=30000", "--set", "scene.camera.resolution=[210, 110]"});
     const char* home = std::getenv("HOME"); // compiled kernels stay where they are
     return run(more, {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()},
                       {"POCL_CACHE_DIR", std::string(home ? home : "/tmp") + "/.cache/pocl/kcache"}});
@@ -41,9 +41,9 @@ TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets)
     // Glass and diamond hold light longer than its surfaces are counted.
     EXPECT_LT(all.at("energy").at("lost").get<double>(), name == "brilliant" ? 0.05 : name == "glass" ? 0.025 : 1e-3);
     const nephroid::image::Image image = nephroid::image::read_image(folder / name / "image.exr");
-    EXPECT_EQ(image.width, 420);
+    EXPECT_EQ(image.width, 210);
     EXPECT_EQ(std::ranges::count(image.channels, "caustic.G"), 1);
-    EXPECT_EQ(nephroid::image::read_image(folder / name / "spheres.exr").width, 420);
+    EXPECT_EQ(nephroid::image::read_image(folder / name / "spheres.exr").width, 210);
     EXPECT_EQ(nephroid::image::read_image(folder / name / "direction_001.exr").height, 256);
     const Ended again = run_to(name, "again", {"--passes", "2"});
     ASSERT_EQ(again.exit_code, 0) << again.err;

@@ -131,14 +131,15 @@ TEST_F(EnvironmentSession, FromTheStartPageToASavedPicture)
   session.until_finished();
   EXPECT_LT(line_pixels(session.window().picture("fewer.png"), map), lines - 50) << "into fewer";
   const auto slider = session.panel<EnvironmentPanel>().place_of("lights").value();
-  session.drag({slider[0] - 65, slider[1]}, {35, 0});
+  session.drag({slider[0] - 65, slider[1]}, {45, 0});
   session.until_placed("the map is cut once more", [&] { return panel.model().rests(); });
   session.until_finished();
   session.shot("It is cut into another number of lights");
   const auto brightest = std::ranges::max_element(panel.figures(), {}, &RegionFigures::flux);
   const auto& lights = panel.shown().cut->segmentation.lights;
   session.move(panel.place_on_map(lights.at(static_cast<std::size_t>(brightest - panel.figures().begin())).direction));
-  EXPECT_GT(line_pixels(session.picture("window-environment.png"), map), lines) << "into more";
+  EXPECT_GT(line_pixels(session.picture("window-environment.png"), map), lines)
+      << "into more: " << environment::settings(*session.workbench().preset()).lights;
 
   session.window().save();
   session.key("e", {"ctrl"});
