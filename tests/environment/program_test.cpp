@@ -20,9 +20,7 @@ protected:
   {
     more.insert(more.begin(), {"run", "environment/" + preset, "-o", name, "--set", "environment.resolution=32", "--set",
                                "environment.photons=30000", "--set", "scene.camera.resolution=[210, 110]"});
-    const char* home = std::getenv("HOME"); // compiled kernels stay where they are
-    return run(more, {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()},
-                      {"POCL_CACHE_DIR", std::string(home ? home : "/tmp") + "/.cache/pocl/kcache"}});
+    return run(more, test::own_cache(scratch.path() / "cache"));
   }
   json of(const std::string& file) const { return json::parse(nephroid::read_file(folder / file)); }
 };
@@ -84,7 +82,7 @@ protected:
   Ended run_to(const std::string& name, std::vector<std::string> more) const
   {
     more.insert(more.begin(), {"run", "ball.json", "-o", name});
-    return run(more, {{"XDG_CACHE_HOME", (scratch.path() / name).string()}}); // a bake of its own
+    return run(more, test::own_cache(scratch.path() / name)); // a bake of its own
   }
   bool has(const std::string& file) const { return is_there(folder / file); }
   json of(const std::string& file) const { return json::parse(read_file(folder / file)); }

@@ -17,13 +17,10 @@ constexpr int width = 48, height = 40;
 
 class Measured : public PlateRuns {
 protected:
-  /// References go to a cache of this test's own; kernels stay in everybody's.
+  /// References go to a cache of this test's own.
   Ended run(const std::string& name, const std::vector<std::string>& more) const
   {
-    const char* home = std::getenv("HOME");
-    return PlateRuns::run(
-        name, more,
-        {{"XDG_CACHE_HOME", file("cache").string()}, {"POCL_CACHE_DIR", std::string(home ? home : "/tmp") + "/.cache/pocl/kcache"}});
+    return PlateRuns::run(name, more, test::own_cache(file("cache")));
   }
   nephroid::job::History history(const std::string& name) const { return nephroid::measure::read_history(file(name) / "history.csv"); }
 

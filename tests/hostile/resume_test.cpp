@@ -73,7 +73,7 @@ protected:
   Ended resume(const std::string& preset, std::vector<std::string> more = {}) const
   {
     more.insert(more.begin(), {"run", preset + ".json", "-o", "out/" + preset, "--resume"});
-    return run(more, {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()}});
+    return run(more, test::own_cache(scratch.path() / "cache"));
   }
   fs::path checkpoint(const std::string& preset) const { return folder / "out" / preset / "checkpoint.bin"; }
   void expect_refused_line(const Ended& ended, const std::string& line) const

@@ -208,8 +208,8 @@ TEST_F(Runs, SweepsFillNumberedFolders)
 
 TEST_F(Runs, OnePassIsNotPasses)
 {
-  const Ended ended = run("a", {"--passes", "1", "--set", R"(reference={"type":"recipe","passes":1})"},
-                          {{"XDG_CACHE_HOME", (scratch.path() / "cache").string()}});
+  const Ended ended =
+      run("a", {"--passes", "1", "--set", R"(reference={"type":"recipe","passes":1})"}, test::own_cache(scratch.path() / "cache"));
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("image.png: 1 pass, "));
   EXPECT_THAT(ended.err, HasSubstr("rendering the reference, 2 x 1 pass; "));

@@ -2,6 +2,7 @@
 // Runs the built program, or another, as a child process, the way a person or a script does: arguments, environment, folder, signals.
 #pragma once
 #include "tests/support/eventually.h"
+#include "tests/support/process_state.h"
 
 #include <csignal>
 #include <filesystem>
@@ -25,6 +26,12 @@ struct Ended {
 
 /// Set, or unset where empty, on top of the test's own environment.
 using Environment = std::map<std::string, std::optional<std::string>>;
+
+/// Bakes, references and thumbnails below a folder of the program's own.
+inline Environment own_cache(const std::filesystem::path& folder)
+{
+  return {{"XDG_CACHE_HOME", folder.string()}, {"POCL_CACHE_DIR", kernel_cache()}};
+}
 
 class Child {
 public:

@@ -42,22 +42,22 @@ private:
   std::filesystem::path before_ = std::filesystem::current_path();
 };
 
-/// Where bakes and thumbnails are kept. OpenCL has caches of its own in that folder, which it looks for once: compiled kernels stay where
-/// they were.
+/// Where PoCL keeps compiled kernels for all tests: a test that compiles them anew takes seconds more.
+inline std::string kernel_cache()
+{
+  if (const char* const folder = std::getenv("POCL_CACHE_DIR")) return folder;
+  if (const char* const folder = std::getenv("XDG_CACHE_HOME")) return std::string(folder) + "/pocl/kcache";
+  const char* const home = std::getenv("HOME");
+  return std::string(home ? home : "/tmp") + "/.cache/pocl/kcache";
+}
+
+/// Where bakes, references and thumbnails are kept.
 class CacheHome {
 public:
   explicit CacheHome(const std::filesystem::path& folder) : home_("XDG_CACHE_HOME", folder.string()) {}
 
 private:
-  static std::string compiled()
-  {
-    if (const char* const folder = std::getenv("POCL_CACHE_DIR")) return folder;
-    if (const char* const folder = std::getenv("XDG_CACHE_HOME")) return std::string(folder) + "/pocl/kcache";
-    const char* const home = std::getenv("HOME");
-    return std::string(home ? home : "/tmp") + "/.cache/pocl/kcache";
-  }
-
-  Variable kernels_{"POCL_CACHE_DIR", compiled()}, home_;
+  Variable kernels_{"POCL_CACHE_DIR", kernel_cache()}, home_;
 };
 
 } // namespace nephroid::test

@@ -156,9 +156,7 @@ private:
   static Environment with_own_folders(Environment environment, const std::filesystem::path& folder)
   {
     environment["XDG_STATE_HOME"] = (folder / "state").string();
-    environment["XDG_CACHE_HOME"] = (folder / "cache").string();
-    const char* const home = std::getenv("HOME"); // compiled kernels stay where they are
-    if (!std::getenv("POCL_CACHE_DIR")) environment["POCL_CACHE_DIR"] = std::string(home ? home : "/tmp") + "/.cache/pocl/kcache";
+    environment.merge(own_cache(folder / "cache"));
     return environment;
   }
   std::vector<std::string> arguments(const std::string& preset, std::vector<std::string> options) const
