@@ -4,7 +4,7 @@
 #include "image/image.h"
 #include "inverse/pictures/target.h"
 #include "measure/read_picture.h"
-#include "scene/environment.h"
+#include "scene/scene.h"
 #include "tests/fuzz/harness.h"
 
 #include <fmt/format.h>
