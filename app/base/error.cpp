@@ -35,14 +35,7 @@ Error::Error(ErrorKind kind, Place place, std::string what, std::string expected
 std::string pointer_key(std::string_view key)
 {
   std::string escaped;
-  for (const char c : key) {
-    if (c == '~')
-      escaped += "~0";
-    else if (c == '/')
-      escaped += "~1";
-    else
-      escaped += c;
-  }
+  for (const char c : key) escaped += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
   return escaped;
 }
 

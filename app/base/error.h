@@ -4,8 +4,6 @@
 #include "base/place.h"
 
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 namespace nephroid {
 

@@ -3,7 +3,6 @@
 #include "base/files.h"
 
 #include "base/bytes.h"
-#include "base/error.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,12 +11,10 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
-#include <utility>
 
 namespace nephroid {
 namespace fs = std::filesystem;
@@ -47,19 +44,9 @@ std::string reason(int error) { return std::generic_category().message(error); }
 
 std::string remedy_for(int error)
 {
-  switch (error) {
-  case ENOSPC:
-  case EDQUOT:
-    return "free some space or choose another folder";
-  case EACCES:
-  case EPERM:
-  case EROFS:
-    return "choose a folder that you may write to";
-  case ENOENT:
-    return "make the folder first";
-  default:
-    return {};
-  }
+  if (error == ENOSPC || error == EDQUOT) return "free some space or choose another folder";
+  if (error == EACCES || error == EPERM || error == EROFS) return "choose a folder that you may write to";
+  return error == ENOENT ? "make the folder first" : "";
 }
 
 /// Says why the file could not be written.
@@ -252,6 +239,19 @@ std::vector<fs::path> model_folders()
   return folders;
 }
 
+/// nephroid in the folder that a variable of the XDG base directory specification names, else in this one of the user's; empty without
+/// HOME.
+fs::path user_folder(const char* variable, const char* in_home)
+{
+  const auto value = [](const char* key) {
+    const char* text = std::getenv(key);
+    return fs::path(text ? text : "");
+  };
+  if (const fs::path folder = value(variable); !folder.empty()) return folder / "nephroid";
+  if (const fs::path home = value("HOME"); !home.empty()) return home / in_home / "nephroid";
+  return {};
+}
+
 } // namespace
 
 bool is_there(const fs::path& path)
@@ -308,23 +308,6 @@ bool is_temporary_name(const fs::path& path)
   return has_form(path.filename()) || has_form(path.filename().stem()); // with the file's own ending behind it
 }
 
-namespace {
-
-/// nephroid in the folder that a variable of the XDG base directory specification names, else in this one of the user's; empty without
-/// HOME.
-fs::path user_folder(const char* variable, const char* in_home)
-{
-  const auto value = [](const char* key) {
-    const char* text = std::getenv(key);
-    return fs::path(text ? text : "");
-  };
-  if (const fs::path folder = value(variable); !folder.empty()) return folder / "nephroid";
-  if (const fs::path home = value("HOME"); !home.empty()) return home / in_home / "nephroid";
-  return {};
-}
-
-} // namespace
-
 fs::path cache_folder(const std::string& name)
 {
   const fs::path folder = user_folder("XDG_CACHE_HOME", ".cache");
@@ -347,6 +330,15 @@ fs::path presets_folder()
   throw failed("presets", fmt::format("not found in {}", fmt::join(names, ", ")), {}, "set NEPHROID_PRESETS to their folder");
 }
 
+fs::path presets_folder_if_any()
+{
+  try {
+    return presets_folder();
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 fs::path library_file(const std::string& name)
 {
   for (const fs::path& candidate : candidates(fs::path("lib/nephroid") / name))
@@ -363,11 +355,7 @@ FileNotFound::FileNotFound(Place where, const std::string& name, const std::stri
 FileFinder::FileFinder(fs::path beside)
 {
   folders_.push_back(beside.empty() ? fs::path(".") : std::move(beside));
-  try {
-    add(presets_folder());
-  } catch (const Error&) {
-    // Without presets/ everything may still lie beside the preset; what does not is reported by find with the folders there are.
-  }
+  if (fs::path presets = presets_folder_if_any(); !presets.empty()) add(std::move(presets));
   for (fs::path& folder : model_folders())
     if (is_folder(folder)) add(std::move(folder));
 }

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +34,8 @@ bool is_temporary_name(const std::filesystem::path& path);
 /// The folder of the shipped presets and materials: NEPHROID_PRESETS from the environment, else ../presets beside the
 /// program's build folder or installed share folder. Throws failed where none is found.
 std::filesystem::path presets_folder();
+/// The same, empty where none is found: a path to a preset still works then.
+std::filesystem::path presets_folder_if_any();
 
 /// nephroid/NAME in the user's folder of caches: XDG_CACHE_HOME, else ~/.cache. Whether it is there is not asked. Empty where HOME is not
 /// set either.

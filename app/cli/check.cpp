@@ -14,8 +14,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <stop_token>
 
 namespace nephroid::cli {
 namespace {

@@ -2,7 +2,6 @@
 #include "cli/command_line.h"
 
 #include "base/build_info.h"
-#include "base/error.h"
 #include "base/files.h"
 #include "base/nearest.h"
 #include "cli/verb.h"
@@ -94,11 +93,7 @@ void refuse_mistyped_verb(const CLI::App& program, const std::string& word)
   known.insert(known.end(), {"--help", "--version"}); // "help"
   const std::string verb = nearest(word, known);
   if (verb.empty()) return;
-  try {
-    if (is_there(presets_folder() / (word + ".json"))) return;
-  } catch (const Error&) {
-    // No presets at all: then it is not the name of one.
-  }
+  if (const auto presets = presets_folder_if_any(); !presets.empty() && is_there(presets / (word + ".json"))) return;
   throw bad_input("", fmt::format("unknown verb '{}'", word), did_you_mean(verb), "see nephroid --help");
 }
 

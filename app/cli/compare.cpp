@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid compare`: every metric of a picture against a reference, and a picture of the difference.
-#include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
 #include "cli/verb.h"
@@ -14,8 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <memory>
 #include <optional>
 
 namespace nephroid::cli {

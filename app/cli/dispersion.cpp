@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/json_output.h"
 #include "cli/dispersion_input.h"
-#include "cli/verb.h"
 #include "cli/verbs.h"
 
 #include <fmt/format.h>
@@ -11,8 +10,6 @@
 
 #include <cmath>
 #include <memory>
-#include <utility>
-#include <vector>
 
 namespace nephroid::cli {
 namespace {
@@ -80,10 +77,7 @@ void print_file(const std::string& file, const DispersionOptions& options)
   std::vector<optics::IndexSample> samples;
   for (double nm : options.nm.empty() ? usual_nm : options.nm) samples.push_back(curve.sample(nm, outside_policy(options.outside)));
   note_missing(file, curve, samples);
-  if (options.json)
-    fmt::print("{}\n", json_text(to_json(file, curve, samples)));
-  else
-    print_text(curve, samples);
+  options.json ? fmt::print("{}\n", json_text(to_json(file, curve, samples))) : print_text(curve, samples);
 }
 
 void print_dispersion(const DispersionOptions& options, Session& session)

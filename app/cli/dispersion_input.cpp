@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/dispersion_input.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include "base/nearest.h"
 #include "scene/materials.h"
 
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <vector>
 
 namespace nephroid::cli {
 namespace {
@@ -20,12 +15,9 @@ namespace fs = std::filesystem;
 std::vector<std::string> shipped_materials()
 {
   std::vector<std::string> names;
-  try {
-    for (const fs::directory_entry& entry : fs::directory_iterator(presets_folder() / "materials"))
+  if (const fs::path presets = presets_folder_if_any(); is_there(presets / "materials") && !presets.empty())
+    for (const fs::directory_entry& entry : fs::directory_iterator(presets / "materials"))
       if (entry.path().extension() == ".yml") names.push_back(entry.path().stem().string());
-  } catch (const std::exception&) {
-    // No presets at all: then nothing is near.
-  }
   std::sort(names.begin(), names.end());
   return names;
 }

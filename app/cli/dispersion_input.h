@@ -6,8 +6,6 @@
 #include "preset/choices.h"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 namespace nephroid::cli {
 
@@ -23,14 +21,14 @@ template <preset::Enumeration E>
 std::vector<std::string> words_of()
 {
   std::vector<std::string> words;
-  for (const auto& choice : preset::Choices<E>::all) words.emplace_back(choice.name);
+  for (const auto& choice : preset::choices<E>) words.emplace_back(choice.name);
   return words;
 }
 /// word: one of them.
 template <preset::Enumeration E>
 E chosen_of(const std::string& word)
 {
-  return std::ranges::find(preset::Choices<E>::all, word, &preset::Choice<E>::name)->value;
+  return std::ranges::find(preset::choices<E>, word, &preset::Choice<E>::name)->value;
 }
 
 /// --outside hold|extrapolate|refuse; chosen is read back by outside_policy after parsing and is "automatic" without the option.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid import`: a glTF scene as a preset.
 #include "run/import/import.h"
-#include "base/error.h"
 #include "base/files.h"
 #include "cli/verb.h"
 #include "cli/verbs.h"
@@ -9,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <memory>
 
 namespace nephroid::cli {
 namespace fs = std::filesystem;

@@ -14,8 +14,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
-#include <memory>
 
 namespace nephroid::cli {
 namespace {

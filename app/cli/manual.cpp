@@ -8,9 +8,7 @@
 #include <fmt/format.h>
 
 #include <sstream>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace nephroid::cli {
 namespace {
@@ -21,12 +19,7 @@ std::string roff(std::string_view text)
   std::string escaped;
   for (const char c : text) {
     if ((c == '.' || c == '\'') && (escaped.empty() || escaped.back() == '\n')) escaped += "\\&";
-    if (c == '\\')
-      escaped += "\\e";
-    else if (c == '-')
-      escaped += "\\-";
-    else
-      escaped += c;
+    escaped += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
   }
   return escaped;
 }

@@ -9,8 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-
 namespace nephroid::cli {
 namespace {
 

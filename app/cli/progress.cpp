@@ -18,18 +18,9 @@
 namespace nephroid::cli {
 namespace {
 
-using namespace std::chrono_literals;
-
 std::chrono::milliseconds rhythm(ProgressStyle style)
 {
-  switch (style) {
-  case ProgressStyle::live:
-    return 100ms;
-  case ProgressStyle::json:
-    return 500ms;
-  default:
-    return 3s;
-  }
+  return std::chrono::milliseconds(style == ProgressStyle::live ? 100 : style == ProgressStyle::json ? 500 : 3000);
 }
 
 int terminal_columns()

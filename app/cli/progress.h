@@ -4,7 +4,6 @@
 #include "job/pace.h"
 
 #include <chrono>
-#include <string>
 
 namespace nephroid::cli {
 

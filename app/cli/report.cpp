@@ -8,9 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-#include <vector>
-
 namespace nephroid::cli {
 namespace fs = std::filesystem;
 namespace {

@@ -11,10 +11,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
-#include <optional>
-#include <set>
-#include <utility>
 
 namespace nephroid::cli {
 namespace fs = std::filesystem;

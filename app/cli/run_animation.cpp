@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/counted.h"
-#include "base/error.h"
 #include "base/json_output.h"
 #include "cli/numbers.h"
 #include "cli/run_target.h"
@@ -12,8 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <string_view>
-#include <utility>
 
 namespace nephroid::cli {
 namespace {

@@ -6,10 +6,8 @@
 #include "base/json_output.h"
 #include "cli/progress.h"
 #include "engine/engine.h"
-#include "measure/measured_job.h"
 #include "run/animation.h"
 #include "run/content.h"
-#include "run/picture.h"
 #include "run/reference.h"
 
 #include <fmt/format.h>
@@ -17,9 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <memory>
 
 namespace nephroid::cli {
 namespace fs = std::filesystem;
@@ -45,43 +41,6 @@ std::string where_time_went(const job::Snapshot& snapshot)
     if (seconds >= 0.05) phases += fmt::format("{} {} {:.1f} s", phases.empty() ? ":" : ",", name, seconds);
   return fmt::format("{:.1f} s of work{}", snapshot.progress.work_seconds, phases);
 }
-
-} // namespace
-
-void report_result(const RunOptions& options, const Target& target, const job::Progress& progress, bool finished)
-{
-  std::vector<std::string> files = run::engine_files(target.folder);
-  for (const char* name : result_files)
-    if (fs::exists(target.folder / name)) files.emplace_back(name);
-  for (const auto& made : run::pictures_at(target.folder)) {
-    const fs::path picture = made["picture"].get<std::string>();
-    files.insert(files.end(), {picture.string(), fs::path(picture).replace_extension(".exr").string()});
-  }
-  if (options.json) {
-    nlohmann::ordered_json all{{"type", "result"},
-                               {"name", target.preset.name},
-                               {"folder", target.folder.string()},
-                               {"files", files},
-                               {"finished", finished},
-                               {std::string(progress.units.steps), progress.step},
-                               {std::string(progress.units.works), progress.work},
-                               {"work_seconds", progress.work_seconds}};
-    if (target.preset.provenance.frame) all["frame"] = *target.preset.provenance.frame;
-    fmt::print("{}\n", json_text(all));
-  } else {
-    const job::Units& units = progress.units;
-    fmt::print("{}: {}, {:.1f} million {} in {:.1f} s of work\n", shown_of(target).string(),
-               counted(progress.step, std::string(units.step), std::string(units.steps)), static_cast<double>(progress.work) * 1e-6,
-               units.works, progress.work_seconds);
-  }
-  std::fflush(stdout);
-  if (!finished || options.pictures_at.empty() || options.pictures_at.back() <= progress.work_seconds) return;
-  const auto beyond = std::upper_bound(options.pictures_at.begin(), options.pictures_at.end(), progress.work_seconds);
-  fmt::print(stderr, "note: {}: the run ended after {:.1f} s of work: no picture at {} s\n", target.label, progress.work_seconds,
-             fmt::join(beyond, options.pictures_at.end(), ", "));
-}
-
-namespace {
 
 /// Renders one target on a device that is open for all of them.
 class Run {
@@ -334,6 +293,39 @@ private:
 };
 
 } // namespace
+
+void report_result(const RunOptions& options, const Target& target, const job::Progress& progress, bool finished)
+{
+  std::vector<std::string> files = run::engine_files(target.folder);
+  for (const char* name : result_files)
+    if (fs::exists(target.folder / name)) files.emplace_back(name);
+  for (const auto& made : run::pictures_at(target.folder)) {
+    const fs::path picture = made["picture"].get<std::string>();
+    files.insert(files.end(), {picture.string(), fs::path(picture).replace_extension(".exr").string()});
+  }
+  if (options.json) {
+    nlohmann::ordered_json all{{"type", "result"},
+                               {"name", target.preset.name},
+                               {"folder", target.folder.string()},
+                               {"files", files},
+                               {"finished", finished},
+                               {std::string(progress.units.steps), progress.step},
+                               {std::string(progress.units.works), progress.work},
+                               {"work_seconds", progress.work_seconds}};
+    if (target.preset.provenance.frame) all["frame"] = *target.preset.provenance.frame;
+    fmt::print("{}\n", json_text(all));
+  } else {
+    const job::Units& units = progress.units;
+    fmt::print("{}: {}, {:.1f} million {} in {:.1f} s of work\n", shown_of(target).string(),
+               counted(progress.step, std::string(units.step), std::string(units.steps)), static_cast<double>(progress.work) * 1e-6,
+               units.works, progress.work_seconds);
+  }
+  std::fflush(stdout);
+  if (!finished || options.pictures_at.empty() || options.pictures_at.back() <= progress.work_seconds) return;
+  const auto beyond = std::upper_bound(options.pictures_at.begin(), options.pictures_at.end(), progress.work_seconds);
+  fmt::print(stderr, "note: {}: the run ended after {:.1f} s of work: no picture at {} s\n", target.label, progress.work_seconds,
+             fmt::join(beyond, options.pictures_at.end(), ", "));
+}
 
 const compute::Context& device_of(const RunOptions& options, Shared& shared)
 {

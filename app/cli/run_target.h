@@ -6,14 +6,8 @@
 #include "preset/preset.h"
 #include "run/run.h"
 
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
 #include <set>
 #include <stop_token>
-#include <string>
-#include <vector>
 
 namespace nephroid::cli {
 

@@ -7,41 +7,34 @@
 namespace nephroid::preset {
 
 template <>
-struct Choices<environment::Settings::Radii> {
-  using Radii = environment::Settings::Radii;
-  static constexpr Choice<Radii> all[] = {
-      {Radii::quadratic, "quadratic", "Close together near the object, where caustics change most: (3.1) of the thesis."},
-      {Radii::uniform, "uniform", "All as far apart."}};
-};
+inline constexpr Choice<environment::Settings::Radii> choices<environment::Settings::Radii>[] = {
+    {environment::Settings::Radii::quadratic, "quadratic",
+     "Close together near the object, where caustics change most: (3.1) of the thesis."},
+    {environment::Settings::Radii::uniform, "uniform", "All as far apart."}};
 
 template <>
-struct Choices<environment::SegmentMethod> {
-  using Method = environment::SegmentMethod;
-  static constexpr Choice<Method> all[] = {
-      {Method::variance, "variance", "The region with most variance is cut where least is left (Viriyothai and Debevec 2009)."},
-      {Method::thesis, "thesis", "The brightest region is cut into halves of equal light (Algorithm 3.3)."}};
-};
+inline constexpr Choice<environment::SegmentMethod> choices<environment::SegmentMethod>[] = {
+    {environment::SegmentMethod::variance, "variance",
+     "The region with most variance is cut where least is left (Viriyothai and Debevec 2009)."},
+    {environment::SegmentMethod::thesis, "thesis", "The brightest region is cut into halves of equal light (Algorithm 3.3)."}};
 
 template <>
-struct Choices<environment::Technique> {
-  using T = environment::Technique;
-  static constexpr Choice<T> all[] = {
-      {T::eight_sets, "eight_sets", "Sets of spheres are looked up eight at a time, with the way that their light goes."},
-      {T::direct, "direct", "The thesis': one set after the other, all from one buffer in one launch."},
-      {T::direct_launches, "direct_launches", "The same with a launch for each light."},
-      {T::direct_buffers, "direct_buffers", "The same with a launch for each light, and a buffer for each baked direction."},
-      {T::compiled, "compiled", "The thesis': all sets are added up into one (Algorithm 3.5), and that is looked up."},
-      {T::compiled_launches, "compiled_launches", "The same with a launch for each light."},
-      {T::compiled_buffers, "compiled_buffers", "The same with a launch for each light, and a buffer for each baked direction."}};
-};
+inline constexpr Choice<environment::Technique> choices<environment::Technique>[] = {
+    {environment::Technique::eight_sets, "eight_sets",
+     "Sets of spheres are looked up eight at a time, with the way that their light goes."},
+    {environment::Technique::direct, "direct", "The thesis': one set after the other, all from one buffer in one launch."},
+    {environment::Technique::direct_launches, "direct_launches", "The same with a launch for each light."},
+    {environment::Technique::direct_buffers, "direct_buffers",
+     "The same with a launch for each light, and a buffer for each baked direction."},
+    {environment::Technique::compiled, "compiled", "The thesis': all sets are added up into one (Algorithm 3.5), and that is looked up."},
+    {environment::Technique::compiled_launches, "compiled_launches", "The same with a launch for each light."},
+    {environment::Technique::compiled_buffers, "compiled_buffers",
+     "The same with a launch for each light, and a buffer for each baked direction."}};
 
 template <>
-struct Choices<environment::Settings::Phase> {
-  using Phase = environment::Settings::Phase;
-  static constexpr Choice<Phase> all[] = {
-      {Phase::henyey_greenstein, "henyey_greenstein", "By 'anisotropy', as mist and smoke do."},
-      {Phase::rayleigh, "rayleigh", "As clear air does: as much back as on, half of that to the sides."}};
-};
+inline constexpr Choice<environment::Settings::Phase> choices<environment::Settings::Phase>[] = {
+    {environment::Settings::Phase::henyey_greenstein, "henyey_greenstein", "By 'anisotropy', as mist and smoke do."},
+    {environment::Settings::Phase::rayleigh, "rayleigh", "As clear air does: as much back as on, half of that to the sides."}};
 
 } // namespace nephroid::preset
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace nephroid::inverse {
 
@@ -63,12 +62,7 @@ bool reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, doubl
 glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2& sines, double steepest)
 {
   if (reachable(slope, n, sines, steepest)) return slope;
-  glm::dvec2 good = flat_slope(sines), bad = slope;
-  for (int i = 0; i < 50; ++i) {
-    const glm::dvec2 middle = (good + bad) / 2.0;
-    (reachable(middle, n, sines, steepest) ? good : bad) = middle;
-  }
-  return good;
+  return last_good(flat_slope(sines), slope, 50, [&](const glm::dvec2& middle) { return reachable(middle, n, sines, steepest); });
 }
 
 glm::dvec2 facet_gradient(const glm::dvec2& slope, double n, const glm::dvec2& sines)
@@ -97,11 +91,11 @@ SlopeChange slope_change(const glm::dvec2& slope, double n, const glm::dvec2& si
     const glm::dvec3 dout = dk - (dk_n - dc) * *normal;
     return -(glm::dvec2(dout) + slope * dout.z) / out.z;
   };
-  SlopeChange made;
-  made.by_sines[0] = change({1, 0, -sines.x / k.z}, 0);
-  made.by_sines[1] = change({0, 1, -sines.y / k.z}, 0);
-  made.by_index = change({0, 0, n / k.z}, 1);
-  return made;
+  SlopeChange result;
+  result.by_sines[0] = change({1, 0, -sines.x / k.z}, 0);
+  result.by_sines[1] = change({0, 1, -sines.y / k.z}, 0);
+  result.by_index = change({0, 0, n / k.z}, 1);
+  return result;
 }
 
 } // namespace nephroid::inverse

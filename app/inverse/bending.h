@@ -37,6 +37,17 @@ glm::dvec2 slope_inside(const glm::dvec2& sines, double n);
 
 inline constexpr double any_steepness = std::numeric_limits<double>::infinity();
 
+/// Between a value that is good and one that is not, the last good one, after so many halvings.
+template <class Value, class IsGood>
+Value last_good(Value good, Value bad, int halvings, const IsGood& is_good)
+{
+  for (int i = 0; i < halvings; ++i) {
+    const Value middle = (good + bad) / 2.0;
+    (is_good(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
 /// The slope behind a flat facet: light goes on as before the front.
 glm::dvec2 flat_slope(const glm::dvec2& sines);
 

@@ -2,12 +2,10 @@
 // Engine 3's closed forms, for `nephroid check`.
 #include "inverse/bending.h"
 #include "inverse/engine.h"
-#include "inverse/facets/solid.h"
 #include "inverse/judge.h"
 #include "inverse/uniform.h"
 
 #include <algorithm>
-#include <random>
 
 namespace nephroid::inverse {
 namespace {

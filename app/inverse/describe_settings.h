@@ -7,60 +7,47 @@
 namespace nephroid::preset {
 
 template <>
-struct Choices<inverse::Picture::Type> {
-  using Type = inverse::Picture::Type;
-  static constexpr Choice<Type> all[] = {{Type::file, "file", "A picture file, as large as it fits into the receiver."},
-                                         {Type::disc, "disc", "A disc."},
-                                         {Type::ring, "ring", "A ring."},
-                                         {Type::cross, "cross", "Two bars across each other."},
-                                         {Type::bars, "bars", "Bars side by side."},
-                                         {Type::star, "star", "A star."},
-                                         {Type::gradient, "gradient", "From the background's brightness at the left to 1 at the right."},
-                                         {Type::face, "face", "A shaded ball with eyes and a mouth, in grey levels."},
-                                         {Type::text, "text", "Words."},
-                                         {Type::qr, "qr", "A QR code, in whole cells, as large as fits."}};
-};
+inline constexpr Choice<inverse::Picture::Type> choices<inverse::Picture::Type>[] = {
+    {inverse::Picture::Type::file, "file", "A picture file, as large as it fits into the receiver."},
+    {inverse::Picture::Type::disc, "disc", "A disc."},
+    {inverse::Picture::Type::ring, "ring", "A ring."},
+    {inverse::Picture::Type::cross, "cross", "Two bars across each other."},
+    {inverse::Picture::Type::bars, "bars", "Bars side by side."},
+    {inverse::Picture::Type::star, "star", "A star."},
+    {inverse::Picture::Type::gradient, "gradient", "From the background's brightness at the left to 1 at the right."},
+    {inverse::Picture::Type::face, "face", "A shaded ball with eyes and a mouth, in grey levels."},
+    {inverse::Picture::Type::text, "text", "Words."},
+    {inverse::Picture::Type::qr, "qr", "A QR code, in whole cells, as large as fits."}};
 
 template <>
-struct Choices<inverse::Light::Type> {
-  using Type = inverse::Light::Type;
-  static constexpr Choice<Type> all[] = {{Type::parallel, "parallel", "As the sun's: from one direction."},
-                                         {Type::point, "point", "A lamp: from one place."}};
-};
+inline constexpr Choice<inverse::Light::Type> choices<inverse::Light::Type>[] = {
+    {inverse::Light::Type::parallel, "parallel", "As the sun's: from one direction."},
+    {inverse::Light::Type::point, "point", "A lamp: from one place."}};
 
 template <>
-struct Choices<inverse::Settings::Method> {
-  using Method = inverse::Settings::Method;
-  static constexpr Choice<Method> all[] = {
-      {Method::assign, "assign",
-       "Facet after facet goes where the pictures lack most light, until a sweep gains little; then all move together."},
-      {Method::thesis, "thesis", "Draws from the pictures' joint probability, which two annealings and a correction adjust."},
-      {Method::lens, "lens", "One picture by a smooth surface, whose light takes the shortest ways there."}};
-};
+inline constexpr Choice<inverse::Settings::Method> choices<inverse::Settings::Method>[] = {
+    {inverse::Settings::Method::assign, "assign",
+     "Facet after facet goes where the pictures lack most light, until a sweep gains little; then all move together."},
+    {inverse::Settings::Method::thesis, "thesis",
+     "Draws from the pictures' joint probability, which two annealings and a correction adjust."},
+    {inverse::Settings::Method::lens, "lens", "One picture by a smooth surface, whose light takes the shortest ways there."}};
 
 template <>
-struct Choices<inverse::Settings::Heights> {
-  using Heights = inverse::Settings::Heights;
-  static constexpr Choice<Heights> all[] = {
-      {Heights::flat, "flat", "All in one plane: the relief is as shallow as it can be."},
-      {Heights::free, "free", "Where the walls between facets are lowest; the relief becomes deeper, as far as the constraints let it."}};
-};
+inline constexpr Choice<inverse::Settings::Heights> choices<inverse::Settings::Heights>[] = {
+    {inverse::Settings::Heights::flat, "flat", "All in one plane: the relief is as shallow as it can be."},
+    {inverse::Settings::Heights::free, "free",
+     "Where the walls between facets are lowest; the relief becomes deeper, as far as the constraints let it."}};
 
 template <>
-struct Choices<inverse::Thesis::Sampling> {
-  using Sampling = inverse::Thesis::Sampling;
-  static constexpr Choice<Sampling> all[] = {
-      {Sampling::exact, "exact", "From the cumulative sum."},
-      {Sampling::rejection, "rejection", "By acceptance and rejection, as printed: the same distribution, with more tries."}};
-};
+inline constexpr Choice<inverse::Thesis::Sampling> choices<inverse::Thesis::Sampling>[] = {
+    {inverse::Thesis::Sampling::exact, "exact", "From the cumulative sum."},
+    {inverse::Thesis::Sampling::rejection, "rejection",
+     "By acceptance and rejection, as printed: the same distribution, with more tries."}};
 
 template <>
-struct Choices<inverse::Thesis::Adjust> {
-  using Adjust = inverse::Thesis::Adjust;
-  static constexpr Choice<Adjust> all[] = {
-      {Adjust::convergence, "convergence", "One number: how wide the light is at the last receiver, over the object."},
-      {Adjust::each, "each", "Four numbers a picture: its size, its place across and down, its distance."}};
-};
+inline constexpr Choice<inverse::Thesis::Adjust> choices<inverse::Thesis::Adjust>[] = {
+    {inverse::Thesis::Adjust::convergence, "convergence", "One number: how wide the light is at the last receiver, over the object."},
+    {inverse::Thesis::Adjust::each, "each", "Four numbers a picture: its size, its place across and down, its distance."}};
 
 } // namespace nephroid::preset
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <string>
 
 namespace nephroid::inverse {
 namespace {

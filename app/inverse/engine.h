@@ -8,11 +8,6 @@
 #include "plan/plan.h"
 #include "preset/preset.h"
 
-#include <cstddef>
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace nephroid::inverse {
 
 extern const engine::Engine engine;

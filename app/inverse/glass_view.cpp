@@ -3,6 +3,7 @@
 
 #include "inverse/light.h"
 #include "preset/read.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -19,8 +20,6 @@ constexpr double reflectance = 0.8, ground_reflectance = 0.25;
 constexpr double luminous_part = 0.27;
 constexpr double fov_deg = 30;
 constexpr int view_height = 600, least_width = 600, most_width = 1800;
-
-preset::Vec3 vec(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 /// From one object's middle to the next: the light beside a receiver falls beside the others, too.
 double spacing(const Layout& layout) { return 1.4 * std::max(layout.size.x, layout.receiver.x); }
@@ -49,7 +48,7 @@ preset::Object screen(const std::string& name, const glm::dvec2& size, const glm
   quad.shape->type = preset::Shape::Type::quad;
   quad.shape->size = {size.x, 1, size.y};
   quad.transform.rotate_deg = {90, 0, 0};
-  quad.transform.translate = vec(at);
+  quad.transform.translate = scene::to_vec3(at);
   return quad;
 }
 
@@ -86,8 +85,8 @@ preset::Camera camera(const Layout& layout)
   const double aspect = static_cast<double>(camera.resolution[0]) / view_height;
   const double away = 1.05 * std::max(high, wide / aspect) / 2 / std::tan(glm::radians(fov_deg / 2)) + deep / 2;
   const glm::dvec3 target{0, 0, (layout.thickness - last) / 2};
-  camera.target = vec(target);
-  camera.position = vec(target + away * glm::dvec3(0, -std::cos(up), std::sin(up)));
+  camera.target = scene::to_vec3(target);
+  camera.position = scene::to_vec3(target + away * glm::dvec3(0, -std::cos(up), std::sin(up)));
   camera.up = {0, 0, 1};
   return camera;
 }
@@ -119,7 +118,7 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   preset::Light sun;
   sun.type = preset::Light::Type::directional;
   sun.irradiance_w_m2 = irradiance;
-  sun.direction = vec(falls);
+  sun.direction = scene::to_vec3(falls);
   scene.lights.push_back(sun);
   scene.environment.emplace(); // what glass reflects
   scene.environment->type = preset::Environment::Type::constant;

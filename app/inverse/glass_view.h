@@ -4,7 +4,6 @@
 #include "inverse/layout.h"
 
 #include <string>
-#include <vector>
 
 namespace nephroid::inverse {
 

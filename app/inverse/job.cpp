@@ -2,11 +2,9 @@
 // A run of engine 3: slopes, then the solid, then its judgement. All on the host.
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
-#include "inverse/assign/cost.h"
 #include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "inverse/facets/files.h"
-#include "inverse/facets/solid.h"
 #include "inverse/glass_view.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
@@ -17,9 +15,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
-#include <optional>
-#include <span>
 #include <utility>
 
 namespace nephroid::inverse {
@@ -33,7 +28,7 @@ constexpr double step_seconds = 0.025;
 /// Of a run's work that the judge is, for its progress only.
 constexpr double judge_part = 0.1;
 
-/// What the object is made of, in words.
+/// What the object is snapshot of, in words.
 std::string material_of(const Settings& s, double n)
 {
   const std::string name = s.index.type == preset::Dispersion::Type::file ? s.index.file + ", " : "";
@@ -80,29 +75,29 @@ public:
     p.work = method_->tried();
     p.work_seconds = method_seconds_ + judge_seconds_;
     const double steps = static_cast<double>(p.step - began_.steps) + method_->part();
-    const double found = std::max(most_steps() ? steps / static_cast<double>(*most_steps()) : 0,
-                                  preset_.stop.seconds ? (method_seconds_ - began_.seconds) / *preset_.stop.seconds : 0);
-    p.fraction = judge_ ? 1 - judge_part + judge_part * judge_->part() : std::min(1.0, found) * (1 - judge_part);
+    const double looked = std::max(most_steps() ? steps / static_cast<double>(*most_steps()) : 0,
+                                   preset_.stop.seconds ? (method_seconds_ - began_.seconds) / *preset_.stop.seconds : 0);
+    p.fraction = judge_ ? 1 - judge_part + judge_part * judge_->part() : std::min(1.0, looked) * (1 - judge_part);
     p.units = method_->units();
     return p;
   }
 
   job::Snapshot snapshot() override
   {
-    job::Snapshot made;
-    add_pictures(made);
-    made.progress = progress();
-    add_scalars(made);
-    made.curves.push_back({"cost", {std::string(method_->units().step), "seconds", "cost", "cost_all", "rel_l2", "missed"}, {}});
+    job::Snapshot snapshot;
+    add_pictures(snapshot);
+    snapshot.progress = progress();
+    add_scalars(snapshot);
+    snapshot.curves.push_back({"cost", {std::string(method_->units().step), "seconds", "cost", "cost_all", "rel_l2", "missed"}, {}});
     for (const CostRow& r : history_)
-      made.curves.back().rows.push_back({r.step, r.seconds, r.cost.cost, r.cost.cost_all, r.cost.rel_l2, r.cost.missed});
-    method_->show(made);
-    made.phases = {{"slopes", method_seconds_}, {"judge", judge_seconds_}};
+      snapshot.curves.back().rows.push_back({r.step, r.seconds, r.cost.cost, r.cost.cost_all, r.cost.rel_l2, r.cost.missed});
+    method_->show(snapshot);
+    snapshot.phases = {{"slopes", method_seconds_}, {"judge", judge_seconds_}};
     if (finished()) {
-      add_files(made);
-      add_frames(made);
+      add_files(snapshot);
+      add_frames(snapshot);
     }
-    return made;
+    return snapshot;
   }
 
   /// The stop counts from here.
@@ -200,7 +195,7 @@ private:
   /// Part of all light, in a cell.
   double brightest(std::size_t receiver) const { return *std::max_element(targets_[receiver].begin(), targets_[receiver].end()); }
 
-  void add_pictures(job::Snapshot& made)
+  void add_pictures(job::Snapshot& snapshot)
   {
     std::vector<std::vector<std::shared_ptr<const job::Picture>>> columns;
     for (std::size_t j = 0; j < targets_.size(); ++j) {
@@ -208,12 +203,12 @@ private:
                  received = received_picture(light(j), brightest(j), layout_);
       columns.push_back({wanted, received, difference_picture(*wanted, *received)});
       const char* const names[] = {"target", "receiver", "difference"};
-      for (std::size_t i = 0; i < 3; ++i) made.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i]});
+      for (std::size_t i = 0; i < 3; ++i) snapshot.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i]});
     }
-    made.pictures.push_back({"slopes", slopes_picture(method_->slopes(), method_->heights(), layout_)});
-    made.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
+    snapshot.pictures.push_back({"slopes", slopes_picture(method_->slopes(), method_->heights(), layout_)});
+    snapshot.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
     if (!std::exchange(conflict_known_, true)) find_conflicts();
-    made.pictures.push_back({"conflict", conflict_});
+    snapshot.pictures.push_back({"conflict", conflict_});
   }
 
   /// Once for every step, where somebody looks; which pictures fight once the slopes are found.
@@ -228,25 +223,26 @@ private:
     if (judge_) conflicts_ = search.of_pictures();
   }
 
-  void add_conflicts(job::Snapshot& made) const
+  void add_conflicts(job::Snapshot& snapshot) const
   {
     for (std::size_t j = 0; j < targets_.size(); ++j) {
-      made.scalars.push_back({"conflicts", fmt::format("floor_{}", j + 1), conflicts_->misplaced[j]});
+      snapshot.scalars.push_back({"conflicts", fmt::format("floor_{}", j + 1), conflicts_->misplaced[j]});
       for (std::size_t k = j + 1; k < targets_.size(); ++k)
-        made.scalars.push_back({"conflicts", fmt::format("{}_{}", j + 1, k + 1), conflicts_->between[j][k] + conflicts_->between[k][j]});
+        snapshot.scalars.push_back(
+            {"conflicts", fmt::format("{}_{}", j + 1, k + 1), conflicts_->between[j][k] + conflicts_->between[k][j]});
     }
   }
 
   /// The receivers' pictures and those between them in the order of their distance, as a screen that moves away would show them: as bright
   /// as is wanted at the receivers, and between them from the one to the other.
-  void add_frames(job::Snapshot& made) const
+  void add_frames(job::Snapshot& snapshot) const
   {
     if (layout_.frames.empty()) return;
-    made.curves.push_back({"frames", {"frame", "distance_mm"}, {}});
+    snapshot.curves.push_back({"frames", {"frame", "distance_mm"}, {}});
     const auto add = [&](double distance, std::span<const double> light, double most) {
-      const std::size_t number = made.curves.back().rows.size() + 1;
-      made.curves.back().rows.push_back({static_cast<double>(number), distance});
-      made.pictures.push_back({fmt::format("frame_{:04}", number), received_picture(light, most, layout_)});
+      const std::size_t number = snapshot.curves.back().rows.size() + 1;
+      snapshot.curves.back().rows.push_back({static_cast<double>(number), distance});
+      snapshot.pictures.push_back({fmt::format("frame_{:04}", number), received_picture(light, most, layout_)});
     };
     const std::size_t gaps = layout_.distances.size() - 1, between = layout_.frames.size() / gaps;
     for (std::size_t j = 0; j < layout_.distances.size(); ++j) {
@@ -258,65 +254,65 @@ private:
     }
   }
 
-  static void add_cost(job::Snapshot& made, const std::string& group, const Cost& c)
+  static void add_cost(job::Snapshot& snapshot, const std::string& group, const Cost& c)
   {
-    made.scalars.insert(
-        made.scalars.end(),
+    snapshot.scalars.insert(
+        snapshot.scalars.end(),
         {{group, "cost", c.cost}, {group, "cost_all", c.cost_all}, {group, "rel_l2", c.rel_l2}, {group, "missed", c.missed}});
   }
 
   /// judged: empty as long as nothing is.
-  void add_receivers(job::Snapshot& made, const std::vector<Cost>& believed, const std::vector<Cost>& judged) const
+  void add_receivers(job::Snapshot& snapshot, const std::vector<Cost>& believed, const std::vector<Cost>& judged) const
   {
     for (std::size_t j = 0; j < believed.size(); ++j) {
       const std::string group = receiver_group(j);
-      made.scalars.insert(made.scalars.end(), {{group, "distance_mm", layout_.distances[j]},
-                                               {group, "width_mm", layout_.receiver.x},
-                                               {group, "height_mm", layout_.receiver.y},
-                                               {group, "believed_cost", believed[j].cost},
-                                               {group, "believed_rel_l2", believed[j].rel_l2}});
-      if (!judged.empty()) add_cost(made, group, judged[j]);
+      snapshot.scalars.insert(snapshot.scalars.end(), {{group, "distance_mm", layout_.distances[j]},
+                                                       {group, "width_mm", layout_.receiver.x},
+                                                       {group, "height_mm", layout_.receiver.y},
+                                                       {group, "believed_cost", believed[j].cost},
+                                                       {group, "believed_rel_l2", believed[j].rel_l2}});
+      if (!judged.empty()) add_cost(snapshot, group, judged[j]);
     }
   }
 
-  void add_scalars(job::Snapshot& made) const
+  void add_scalars(job::Snapshot& snapshot) const
   {
     const std::vector<Cost> believed = method_->costs(), judged = finished() ? judge_->costs(targets_) : std::vector<Cost>();
-    add_cost(made, "believed", mean(believed));
-    if (finished()) add_cost(made, "judged", mean(judged));
-    add_receivers(made, believed, judged);
-    if (conflicts_) add_conflicts(made);
+    add_cost(snapshot, "believed", mean(believed));
+    if (finished()) add_cost(snapshot, "judged", mean(judged));
+    add_receivers(snapshot, believed, judged);
+    if (conflicts_) add_conflicts(snapshot);
     if (!finished()) return;
     const Fates f = judge_->fates();
-    made.scalars.insert(
-        made.scalars.end(),
+    snapshot.scalars.insert(
+        snapshot.scalars.end(),
         {{"light", "sent", f.sent}, {"light", "reflected", f.reflected}, {"light", "lost", f.lost}, {"light", "by_walls", f.by_walls}});
-    made.scalars.insert(made.scalars.end(), {{"object", "index", layout_.n},
-                                             {"object", "slope_limit", usable_slope(layout_)},
-                                             {"object", "relief_mm", solid_->relief()},
-                                             {"object", "thinnest_mm", layout_.thickness - solid_->highest},
-                                             {"object", "highest_wall_mm", solid_->highest_wall},
-                                             {"object", "wall_area_mm2", solid_->wall_area},
-                                             {"object", "roughness", roughness(layout_, method_->slopes())},
-                                             {"object", "steepest_deg", solid_->steepest_deg},
-                                             {"object", "triangles", static_cast<double>(solid_->mesh.triangles.size())}});
+    snapshot.scalars.insert(snapshot.scalars.end(), {{"object", "index", layout_.n},
+                                                     {"object", "slope_limit", usable_slope(layout_)},
+                                                     {"object", "relief_mm", solid_->relief()},
+                                                     {"object", "thinnest_mm", layout_.thickness - solid_->highest},
+                                                     {"object", "highest_wall_mm", solid_->highest_wall},
+                                                     {"object", "wall_area_mm2", solid_->wall_area},
+                                                     {"object", "roughness", roughness(layout_, method_->slopes())},
+                                                     {"object", "steepest_deg", solid_->steepest_deg},
+                                                     {"object", "triangles", static_cast<double>(solid_->mesh.triangles.size())}});
   }
 
-  void add_files(job::Snapshot& made) const
+  void add_files(job::Snapshot& snapshot) const
   {
     const auto layout = std::make_shared<const Layout>(layout_); // one for all files: a lamp's has a table of the facets
     const auto add = [&](const char* name, auto write) {
-      made.files.push_back({name, [write, solid = solid_, layout](ByteSink& to) { write(*layout, *solid, to); }});
+      snapshot.files.push_back({name, [write, solid = solid_, layout](ByteSink& to) { write(*layout, *solid, to); }});
     };
     add("object.obj", [](const Layout&, const Solid& solid, ByteSink& to) { write_obj(solid.mesh, to); });
     add("object.stl", [](const Layout&, const Solid& solid, ByteSink& to) { write_stl(solid.mesh, to); });
-    add("object.ply", [](const Layout&, const Solid& solid, ByteSink& to) { write_ply(solid.mesh, to); });
+    add("object.ply", [](const Layout&, const Solid& solid, ByteSink& to) { scene::write_ply(solid.mesh, to, mesh_title); });
     add("facets.json", write_facets);
     add("heights.exr", write_height_exr);
     add("heights.png", write_height_png);
     if (!layout_.lamp)
-      made.files.push_back({glass_view_file, [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
-                                                 ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
+      snapshot.files.push_back({glass_view_file, [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
+                                                     ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
     add("workshop.md", [material = material_of(settings(preset_), layout_.n)](const Layout& of, const Solid& solid, ByteSink& to) {
       const std::string page = workshop_page(of, solid, material);
       to.write(std::as_bytes(std::span(page)));

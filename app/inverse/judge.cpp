@@ -6,16 +6,12 @@
 #include "inverse/light.h"
 #include "inverse/uniform.h"
 #include "optics/fresnel.h"
-#include "scene/bvh.h"
 
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <random>
 #include <thread>
 
 namespace nephroid::inverse {

@@ -7,9 +7,6 @@
 #include "inverse/layout.h"
 #include "scene/bvh.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// Where the light goes that falls on the front; reflected, lost and sent sum to 1, for a lamp but for noise.

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/layout.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include "inverse/bending.h"
 #include "inverse/light.h"
-#include "inverse/settings.h"
 #include "scene/materials.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
-#include <limits>
 #include <numeric>
-#include <string>
 
 namespace nephroid::inverse {
 namespace {
@@ -46,12 +39,6 @@ void read_index(const preset::Preset& preset, Layout& layout)
     layout.n = layout.indices.front();
     layout.indices.clear();
   }
-}
-
-/// The most that a facet with this slope can reach from its middle at its corners.
-double reach(const Layout& layout, double slope)
-{
-  return glm::length(facet_gradient({slope, 0}, layout.n)) * glm::length(layout.facet()) / 2;
 }
 
 /// The most that a facet can reach from z = 0 at its corners: the normal of the steepest one is as far from the light inside as that of
@@ -124,7 +111,7 @@ void check_constraints(const Layout& l, const Settings& s, const Place& own)
 {
   const double slope = std::min(l.cell().x, l.cell().y) / l.distances.back();
   if (usable_slope(l) >= slope || usable_slope(l.n) < slope) return;
-  const double needed = reach(l, slope);
+  const double needed = glm::length(facet_gradient({slope, 0}, l.n)) * glm::length(l.facet()) / 2; // from its middle to its corners
   const bool too_shallow = l.band < needed;
   const char* const field = !too_shallow                                        ? "max_slope_deg"
                             : s.max_relief_mm && *s.max_relief_mm / 2 <= l.band ? "max_relief_mm"

@@ -9,8 +9,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <optional>
-#include <vector>
 
 namespace nephroid::inverse {
 

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
 
 namespace nephroid::inverse {
 namespace {
@@ -27,12 +25,7 @@ struct LampWay {
   double change(double q) const { return a / std::pow(1 - q * q, 1.5) + b * n * n / std::pow(n * n - q * q, 1.5); }
   double sine(double at) const
   {
-    double low = 0, high = std::min(1.0, n);
-    for (int i = 0; i < 60; ++i) {
-      const double middle = (low + high) / 2;
-      (r(middle) < at ? low : high) = middle;
-    }
-    return low;
+    return last_good(0.0, std::min(1.0, n), 60, [&](double q) { return r(q) < at; });
   }
 };
 
@@ -87,16 +80,6 @@ double worst_shadow(const Layout& layout)
   return worst;
 }
 
-/// Between a value that is good and one that is not, the last good one.
-double last_good(double good, double bad, const std::function<bool(double)>& is_good)
-{
-  for (int i = 0; i < 40; ++i) {
-    const double middle = (good + bad) / 2;
-    (is_good(middle) ? good : bad) = middle;
-  }
-  return good;
-}
-
 Layout with_tilt(Layout layout, double tilt_deg, double turn_deg)
 {
   const double turn = glm::radians(turn_deg);
@@ -121,7 +104,8 @@ Layout tilted(const Layout& layout, const Light& light, const Place& where)
   if (!good(light.tilt_deg))
     throw bad_input(
         where, fmt::format("is {} degrees, and facets that bend such light to the receivers stand in each other's shadow", light.tilt_deg),
-        fmt::format("expected at most {:.3g}", std::abs(last_good(0, light.tilt_deg, good))), "tilt it less, or move the receivers away");
+        fmt::format("expected at most {:.3g}", std::abs(last_good(0.0, light.tilt_deg, 40, good))),
+        "tilt it less, or move the receivers away");
   return with_tilt(layout, light.tilt_deg, light.turn_deg);
 }
 
@@ -138,7 +122,7 @@ Layout lit_by_lamp(const Layout& layout, const Light& light, const Place& where)
         where,
         fmt::format("is {} mm, so near that facets at the rim, to bend its light to the receivers, stand in each other's shadow",
                     light.distance_mm),
-        fmt::format("expected at least {:.4g} mm", last_good(far, light.distance_mm, good)),
+        fmt::format("expected at least {:.4g} mm", last_good(far, light.distance_mm, 40, good)),
         "move the light away, or make the object smaller");
   }
   return with_lamp(layout, light.distance_mm, light.offset_mm);

@@ -7,11 +7,6 @@
 #include "inverse/layout.h"
 #include "job/job.h"
 
-#include <glm/glm.hpp>
-
-#include <cstdint>
-#include <vector>
-
 namespace nephroid::inverse {
 
 class Method {

@@ -10,8 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <string>
-
 namespace nephroid::inverse {
 namespace {
 

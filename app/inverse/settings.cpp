@@ -67,36 +67,36 @@ void check_scene(const preset::Preset& preset, const Where& where)
 
 void check(const preset::Preset& preset, const Where& where)
 {
+  using Method = Settings::Method;
   const Settings& s = settings(preset);
-  const std::string own = "/inverse";
+  const auto refuse = [&](const char* field, const std::string& what, const char* expected, const char* remedy = "") {
+    throw bad_input(where(preset::child("/inverse", field)), what, expected, remedy);
+  };
+  const bool lens = s.method == Method::lens, free_heights = s.heights == Settings::Heights::free;
   check_scene(preset, where);
-  check_receivers(s, preset::child(own, "receivers"), where);
+  check_receivers(s, "/inverse/receivers", where);
   if (s.frames > 0 && s.receivers.size() == 1)
-    throw bad_input(where(preset::child(own, "frames")), fmt::format("is {}, and there is one receiver", s.frames),
-                    "expected two or more, between which a screen can move", "add a receiver, or take 'frames' away");
+    refuse("frames", fmt::format("is {}, and there is one receiver", s.frames), "expected two or more, between which a screen can move",
+           "add a receiver, or take 'frames' away");
   if (s.index.type == preset::Dispersion::Type::constant && s.index.n == 1)
-    throw bad_input(where(preset::child(own, "index")), "is 1, which bends no light", "expected another index, such as 1.5");
-  if (s.heights == Settings::Heights::free && s.method == Settings::Method::thesis)
-    throw bad_input(where(preset::child(own, "heights")), "is free, and the method 'thesis' aims from facets in one plane",
-                    "expected 'flat'", "or choose the method 'assign'");
-  if (s.method == Settings::Method::lens && s.receivers.size() > 1)
-    throw bad_input(where(preset::child(own, "method")), fmt::format("is \"lens\", and there are {} receivers", s.receivers.size()),
-                    "expected one, because a smooth surface casts one picture", "choose \"assign\", or keep one receiver");
-  if (s.method == Settings::Method::lens && s.heights == Settings::Heights::free)
-    throw bad_input(where(preset::child(own, "heights")), "is \"free\", and the method \"lens\" makes a surface without steps",
-                    "expected none", "remove it");
-  if (s.smoothing_normals > 0 && s.method != Settings::Method::assign)
-    throw bad_input(where(preset::child(own, "smoothing_normals")),
-                    fmt::format("is {}, and only the method 'assign' has such a term", s.smoothing_normals), "expected 0",
-                    "or choose the method 'assign'");
-  if (s.method == Settings::Method::lens && (s.light.type == Light::Type::point || s.light.tilt_deg != 0))
-    throw bad_input(where(preset::child(own, "light")), "is a lamp or tilted, and the method \"lens\" takes light straight on",
-                    "expected parallel light with a tilt_deg of 0", "choose \"assign\"");
-  if (s.wavelength_nm - s.band_nm / 2 < 380 || s.wavelength_nm + s.band_nm / 2 > 780)
-    throw bad_input(where(preset::child(own, "band_nm")),
-                    fmt::format("is {} nm, and the light would have {} to {} nm", s.band_nm, s.wavelength_nm - s.band_nm / 2,
-                                s.wavelength_nm + s.band_nm / 2),
-                    "expected a band within 380 to 780 nm", "for all of it take 400 about a wavelength_nm of 580");
+    refuse("index", "is 1, which bends no light", "expected another index, such as 1.5");
+  if (free_heights && s.method == Method::thesis)
+    refuse("heights", "is free, and the method 'thesis' aims from facets in one plane", "expected 'flat'", "or choose the method 'assign'");
+  if (lens && s.receivers.size() > 1)
+    refuse("method", fmt::format("is \"lens\", and there are {} receivers", s.receivers.size()),
+           "expected one, because a smooth surface casts one picture", "choose \"assign\", or keep one receiver");
+  if (lens && free_heights)
+    refuse("heights", "is \"free\", and the method \"lens\" makes a surface without steps", "expected none", "remove it");
+  if (s.smoothing_normals > 0 && s.method != Method::assign)
+    refuse("smoothing_normals", fmt::format("is {}, and only the method 'assign' has such a term", s.smoothing_normals), "expected 0",
+           "or choose the method 'assign'");
+  if (lens && (s.light.type == Light::Type::point || s.light.tilt_deg != 0))
+    refuse("light", "is a lamp or tilted, and the method \"lens\" takes light straight on", "expected parallel light with a tilt_deg of 0",
+           "choose \"assign\"");
+  const double first_nm = s.wavelength_nm - s.band_nm / 2, last_nm = s.wavelength_nm + s.band_nm / 2;
+  if (first_nm < 380 || last_nm > 780)
+    refuse("band_nm", fmt::format("is {} nm, and the light would have {} to {} nm", s.band_nm, first_nm, last_nm),
+           "expected a band within 380 to 780 nm", "for all of it take 400 about a wavelength_nm of 580");
   if (preset.stop.error && !preset.reference)
     throw bad_input(where("/stop/error"), "the engine 'inverse' makes no estimate of its error",
                     "expected 'stop.passes' or 'stop.seconds'");

@@ -4,11 +4,6 @@
 #pragma once
 #include "preset/preset.h"
 
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// Constants of the thesis' pipeline: the section "inverse.thesis". The thesis prints draws, cycles, moves, cooling, corrections, patience

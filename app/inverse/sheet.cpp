@@ -61,23 +61,23 @@ std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> s
 std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<std::shared_ptr<const job::Picture>>>& columns, int width,
                                           int height)
 {
-  auto made = std::make_shared<job::Picture>();
-  made->width = width;
-  made->height = height;
-  made->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.02f); // a grey that parts black pictures
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = width;
+  picture->height = height;
+  picture->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.02f); // a grey that parts black pictures
   const int across = static_cast<int>(columns.size()), down = static_cast<int>(columns.front().size());
-  const job::Picture& one = *columns.front().front();
+  const job::Picture& first = *columns.front().front();
   const int gap = std::max(1, std::min(width / across, height / down) / 32);
   const double fits =
-      std::min((static_cast<double>(width) / across - gap) / one.width, (static_cast<double>(height) / down - gap) / one.height);
+      std::min((static_cast<double>(width) / across - gap) / first.width, (static_cast<double>(height) / down - gap) / first.height);
   const double scale = fits >= 1 ? static_cast<int>(fits) : std::max(fits, 0.0);
-  const int w = static_cast<int>(scale * one.width), h = static_cast<int>(scale * one.height);
+  const int w = static_cast<int>(scale * first.width), h = static_cast<int>(scale * first.height);
   for (int column = 0; column < across; ++column)
     for (int row = 0; row < down; ++row) {
       const int left = (2 * column + 1) * width / (2 * across) - w / 2, top = (2 * row + 1) * height / (2 * down) - h / 2;
-      paste(*columns[static_cast<std::size_t>(column)][static_cast<std::size_t>(row)], *made, std::max(left, 0), std::max(top, 0), w, h);
+      paste(*columns[static_cast<std::size_t>(column)][static_cast<std::size_t>(row)], *picture, std::max(left, 0), std::max(top, 0), w, h);
     }
-  return made;
+  return picture;
 }
 
 } // namespace nephroid::inverse

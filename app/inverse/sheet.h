@@ -4,9 +4,7 @@
 #include "inverse/layout.h"
 #include "job/job.h"
 
-#include <memory>
 #include <span>
-#include <vector>
 
 namespace nephroid::inverse {
 

@@ -5,14 +5,7 @@
 #include "job/history.h"
 #include "preset/preset.h"
 
-#include <cstdint>
 #include <functional>
-#include <limits>
-#include <memory>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace nephroid::job {
 

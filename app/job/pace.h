@@ -3,8 +3,6 @@
 #pragma once
 #include "job/job.h"
 
-#include <string>
-
 namespace nephroid::job {
 
 /// From how much was done and how long it took in this session: a resumed run goes at this session's speed.

@@ -3,16 +3,12 @@
 // while a job works, so no reader ever waits for the device.
 #include "job/worker.h"
 
-#include "base/error.h"
-
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <new>
-#include <optional>
 #include <thread>
-#include <utility>
 
 namespace nephroid::job {
 namespace {

@@ -5,11 +5,7 @@
 #include "job/job.h"
 #include "job/spectrum.h"
 
-#include <array>
 #include <chrono>
-#include <cstdint>
-#include <functional>
-#include <memory>
 #include <optional>
 
 namespace nephroid::job {

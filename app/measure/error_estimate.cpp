@@ -17,9 +17,7 @@
 #include "base/summed_area.h"
 #include "optics/colour.h"
 
-#include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace nephroid::measure {
 namespace {

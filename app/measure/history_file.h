@@ -5,7 +5,6 @@
 #include "job/history.h"
 
 #include <filesystem>
-#include <string>
 
 namespace nephroid::measure {
 

@@ -4,12 +4,9 @@
 #include "base/parallel.h"
 #include "measure/lab.h"
 #include "measure/laplacian_pyramid.h"
-#include "measure/metrics.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

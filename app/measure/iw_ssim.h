@@ -4,8 +4,6 @@
 #pragma once
 #include "measure/metrics.h"
 
-#include <optional>
-
 namespace nephroid::measure {
 
 /// Below so many pixels a side the coarsest of the five scales is smaller than SSIM's window of 11.

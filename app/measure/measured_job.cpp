@@ -8,20 +8,12 @@
 #include "job/spectrum.h"
 #include "measure/error_estimate.h"
 #include "preset/choices.h"
-#include "preset/field.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::measure {
 namespace {

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -111,6 +110,13 @@ std::size_t first_not_finite(std::span<const float> rgb)
 
 std::string value_name(float value) { return std::isnan(value) ? "NaN" : value > 0 ? "infinity" : "-infinity"; }
 
+template <auto member>
+Metric metric(std::string_view name, Metric::Kind kind, std::string_view meaning, MetricText text)
+{
+  const auto of = [](const Metrics& metrics) { return std::optional<double>(metrics.*member).value_or(std::nan("")); };
+  return {name, meaning, std::move(text), kind, of};
+}
+
 } // namespace
 
 void check_pixels(const Pixels& picture)
@@ -196,52 +202,23 @@ Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, Which
 const std::vector<Metric>& all_metrics()
 {
   using enum Metric::Kind;
-  static const auto or_none = [](const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); };
   // A distance falls with the root of the samples, a mean square with their number. FLIP bends small differences upwards by a power.
   static const std::vector<Metric> metrics{
-      {"lab_mean",
-       "distance in CIELAB, mean of the pixels (0 is equal, about 2.3 just noticeable)",
-       {"mean CIELAB distance", "CIELAB units", -0.5},
-       estimated,
-       [](const Metrics& m) { return m.lab_mean; }},
-      {"lab_rms",
-       "distance in CIELAB, root mean square",
-       {"root mean square CIELAB distance", "CIELAB units", -0.5},
-       estimated,
-       [](const Metrics& m) { return m.lab_rms; }},
-      {"lab_max",
-       "distance in CIELAB, largest",
-       {"largest CIELAB distance", "CIELAB units", -0.5},
-       other,
-       [](const Metrics& m) { return m.lab_max; }},
-      {"mse", "(a - b)^2, mean", {"mean square error", "white²", -1.0}, estimated, [](const Metrics& m) { return m.mse; }},
-      {"rel_mse",
-       "(a - b)^2 / (b^2 + 0.01), mean",
-       {"relative mean square error", "", -1.0},
-       other,
-       [](const Metrics& m) { return m.rel_mse; }},
-      {"rel_l2", "|a - b| / |b|", {"relative L2 error", "", -0.5}, estimated, [](const Metrics& m) { return m.rel_l2; }},
-      {"psnr_db",
-       "decibels of the displayed pictures; more is better",
-       {"peak signal-to-noise ratio", "dB", std::nullopt, false, true},
-       other,
-       [](const Metrics& m) { return or_none(m.psnr_db); }},
-      {"iw_ssim",
-       "structural similarity, 1 is equal; needs 161 pixels a side",
-       {"IW-SSIM", "", std::nullopt, false, true},
-       perceptual,
-       [](const Metrics& m) { return or_none(m.iw_ssim); }},
-      {"flip",
-       "what a viewer sees flipping between the displayed pictures, 0..1",
-       {"FLIP", "", std::nullopt},
-       perceptual,
-       [](const Metrics& m) { return or_none(m.flip); }},
-      {"hdr_flip",
-       "the same at every exposure, 0..1",
-       {"HDR-FLIP", "", std::nullopt},
-       perceptual,
-       [](const Metrics& m) { return or_none(m.hdr_flip); }},
-  };
+      metric<&Metrics::lab_mean>("lab_mean", estimated, "distance in CIELAB, mean of the pixels (0 is equal, about 2.3 just noticeable)",
+                                 {"mean CIELAB distance", "CIELAB units", -0.5}),
+      metric<&Metrics::lab_rms>("lab_rms", estimated, "distance in CIELAB, root mean square",
+                                {"root mean square CIELAB distance", "CIELAB units", -0.5}),
+      metric<&Metrics::lab_max>("lab_max", other, "distance in CIELAB, largest", {"largest CIELAB distance", "CIELAB units", -0.5}),
+      metric<&Metrics::mse>("mse", estimated, "(a - b)^2, mean", {"mean square error", "white²", -1.0}),
+      metric<&Metrics::rel_mse>("rel_mse", other, "(a - b)^2 / (b^2 + 0.01), mean", {"relative mean square error", "", -1.0}),
+      metric<&Metrics::rel_l2>("rel_l2", estimated, "|a - b| / |b|", {"relative L2 error", "", -0.5}),
+      metric<&Metrics::psnr_db>("psnr_db", other, "decibels of the displayed pictures; more is better",
+                                {"peak signal-to-noise ratio", "dB", std::nullopt, false, true}),
+      metric<&Metrics::iw_ssim>("iw_ssim", perceptual, "structural similarity, 1 is equal; needs 161 pixels a side",
+                                {"IW-SSIM", "", std::nullopt, false, true}),
+      metric<&Metrics::flip>("flip", perceptual, "what a viewer sees flipping between the displayed pictures, 0..1",
+                             {"FLIP", "", std::nullopt}),
+      metric<&Metrics::hdr_flip>("hdr_flip", perceptual, "the same at every exposure, 0..1", {"HDR-FLIP", "", std::nullopt})};
   return metrics;
 }
 

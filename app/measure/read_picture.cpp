@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/read_picture.h"
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "image/image.h"
-#include "measure/metrics.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace nephroid::measure {
 namespace {

@@ -6,12 +6,6 @@
 #include "job/history.h"
 #include "measure/metrics.h"
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 namespace nephroid::measure {
 
 /// Whether a value has a place on a logarithmic axis: above 0, and within 1e-100..1e100 so that its powers are finite as well.

@@ -3,7 +3,6 @@
 #include "measure/run_files.h"
 
 #include "base/counted.h"
-#include "base/error.h"
 #include "base/files.h"
 #include "measure/history_file.h"
 
@@ -142,22 +141,15 @@ Json parsed(const fs::path& file)
 /// What is wrong with a value; null where it is of the type.
 const char* complaint(const Json& value, Type type)
 {
-  switch (type) {
-  case Type::text:
-    return value.is_string() ? nullptr : "is no text";
-  case Type::number:
-    return value.is_number() ? nullptr : "is no number";
-  case Type::whole:
-    return value.is_number_unsigned() ? nullptr : "is no whole number from 0";
-  case Type::flag:
-    return value.is_boolean() ? nullptr : "is neither true nor false";
-  case Type::list:
-    return value.is_array() ? nullptr : "is no list";
-  case Type::object:
-  case Type::numbers:
-    return value.is_object() ? nullptr : "is no object";
-  }
-  return nullptr;
+  const std::pair<bool, const char*> kinds[] = {{value.is_string(), "is no text"},
+                                                {value.is_number(), "is no number"},
+                                                {value.is_number_unsigned(), "is no whole number from 0"},
+                                                {value.is_boolean(), "is neither true nor false"},
+                                                {value.is_array(), "is no list"},
+                                                {value.is_object(), "is no object"},
+                                                {value.is_object(), "is no object"}}; // in the order of Type
+  const auto& [is_right, wrong] = kinds[static_cast<std::size_t>(type)];
+  return is_right ? nullptr : wrong;
 }
 
 } // namespace

@@ -10,15 +10,6 @@
 
 namespace nephroid::plan {
 
-std::string readable_bytes(std::uint64_t bytes)
-{
-  const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
-  double amount = static_cast<double>(bytes);
-  int unit = 0;
-  for (; amount >= 1024 && unit < 4; ++unit) amount /= 1024;
-  return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.{}f} {}", amount, amount < 10 ? 2 : amount < 100 ? 1 : 0, units[unit]);
-}
-
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -59,6 +50,15 @@ Json json_of(const Plan& plan)
 }
 
 } // namespace
+
+std::string readable_bytes(std::uint64_t bytes)
+{
+  const char* const units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+  double amount = static_cast<double>(bytes);
+  int unit = 0;
+  for (; amount >= 1024 && unit < 4; ++unit) amount /= 1024;
+  return unit == 0 ? fmt::format("{} B", bytes) : fmt::format("{:.{}f} {}", amount, amount < 10 ? 2 : amount < 100 ? 1 : 0, units[unit]);
+}
 
 std::string to_json(const Plan& plan) { return json_text(json_of(plan), 2); }
 

@@ -3,12 +3,9 @@
 #include "preset/animation.h"
 
 #include "base/counted.h"
-#include "base/error.h"
 #include "base/monotone_cubic.h"
 #include "preset/describe.h"
 #include "preset/document.h"
-#include "preset/origins.h"
-#include "preset/read.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>
@@ -16,9 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
 
 namespace nephroid::preset {
 namespace {

@@ -3,8 +3,6 @@
 #pragma once
 #include "preset/preset.h"
 
-#include <vector>
-
 namespace nephroid::preset {
 
 /// The track's numbers at a frame. Its keys are by rising frame and have equally many numbers.

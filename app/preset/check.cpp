@@ -4,13 +4,11 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/nearest.h"
-#include "preset/json_text.h"
 #include "preset/settings_type.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::preset {

@@ -23,18 +23,12 @@ void describe(Fields& v, Reference& r)
   v.shorthand(Bare::text, Reference::Type::file, "file");
   using Type = Reference::Type;
   v.type("type", "Where the reference comes from.", r.type);
-  switch (r.type) {
-  case Type::file:
-    v.field("file", "A picture of the run's size.", r.file, {.text = Text::file, .required = true});
-    break;
-  case Type::recipe:
-    v.settings(r.settings);
-    v.field("passes", "Passes of each of the two seeds.", r.passes, {.bounds = within(1, max_passes)});
-    v.field("seed", "The first of its two seeds, the other is the next; neither may be the run's.", r.seed,
-            {.bounds = within(0, 18446744073709551614.0)});
-    v.field("seconds", "Refuse to begin where making it would take longer.", r.seconds, {.unit = "s", .bounds = within(0.001, 1e7)});
-    break;
-  }
+  if (r.type == Type::file) return v.field("file", "A picture of the run's size.", r.file, {.text = Text::file, .required = true});
+  v.settings(r.settings);
+  v.field("passes", "Passes of each of the two seeds.", r.passes, {.bounds = within(1, max_passes)});
+  v.field("seed", "The first of its two seeds, the other is the next; neither may be the run's.", r.seed,
+          {.bounds = within(0, 18446744073709551614.0)});
+  v.field("seconds", "Refuse to begin where making it would take longer.", r.seconds, {.unit = "s", .bounds = within(0.001, 1e7)});
 }
 
 void describe(Fields& v, Measure& m)

@@ -14,29 +14,21 @@ void describe(Fields& v, Dispersion& d)
   using Type = Dispersion::Type;
   v.type("type", "Where n comes from.", d.type);
   const Column nm{"wavelength", "nm", wavelength_bounds}, n{"n", "", index_bounds};
-  switch (d.type) {
-  case Type::constant:
-    v.field("n", "Index of refraction.", d.n, {.bounds = index_bounds, .required = true});
-    return; // a constant has no range to leave
-  case Type::file:
-    v.field("file", "A YAML file of refractiveindex.info.", d.file, {.text = Text::file, .required = true});
-    break;
-  case Type::sellmeier:
-    v.field("b", "Strength of each term.", d.b, {.bounds = coefficient_bounds, .count = term_count, .required = true});
-    v.field("c_um2", "Resonance of each term: its wavelength squared.", d.c_um2,
-            {.unit = "square micrometres", .bounds = coefficient_bounds, .count = term_count, .required = true});
-    break;
-  case Type::cauchy:
-    v.field("coefficients", "c0, c1, c2, ...: c_i in micrometres to the power 2 i.", d.coefficients,
-            {.bounds = coefficient_bounds, .count = term_count, .required = true});
-    break;
-  case Type::table:
-    v.field("table", "Rows of wavelength and n.", d.table, {.count = {1, max_rows}, .columns = {nm, n}, .required = true});
-    break;
-  case Type::points:
-    v.field("table", "Control points: wavelength and n.", d.table, {.count = {2, max_rows}, .columns = {nm, n}, .required = true});
-    break;
+  const auto coefficients = [&](std::string_view name, std::string_view sentence, auto& values, std::string_view unit = {}) {
+    v.field(name, sentence, values, {.unit = unit, .bounds = coefficient_bounds, .count = term_count, .required = true});
+  };
+  if (d.type == Type::constant) // which has no range to leave
+    return v.field("n", "Index of refraction.", d.n, {.bounds = index_bounds, .required = true});
+  if (d.type == Type::file) v.field("file", "A YAML file of refractiveindex.info.", d.file, {.text = Text::file, .required = true});
+  if (d.type == Type::sellmeier) {
+    coefficients("b", "Strength of each term.", d.b);
+    coefficients("c_um2", "Resonance of each term: its wavelength squared.", d.c_um2, "square micrometres");
   }
+  if (d.type == Type::cauchy) coefficients("coefficients", "c0, c1, c2, ...: c_i in micrometres to the power 2 i.", d.coefficients);
+  if (d.type == Type::table)
+    v.field("table", "Rows of wavelength and n.", d.table, {.count = {1, max_rows}, .columns = {nm, n}, .required = true});
+  if (d.type == Type::points)
+    v.field("table", "Control points: wavelength and n.", d.table, {.count = {2, max_rows}, .columns = {nm, n}, .required = true});
   v.field("outside", "What n is at wavelengths outside the data's own range.", d.outside);
 }
 
@@ -47,21 +39,15 @@ void describe(Fields& v, LightSpectrum& s)
   using Type = LightSpectrum::Type;
   v.type("type", "Where the spectrum comes from.", s.type);
   const Column nm{"wavelength", "nm", wavelength_bounds}, power{"relative power", "", power_bounds};
-  switch (s.type) {
-  case Type::illuminant:
+  if (s.type == Type::illuminant)
     v.field("illuminant", "A, D50, D65, E or F1 to F12.", s.illuminant, {.text = Text::line, .names = Names::illuminant, .required = true});
-    break;
-  case Type::blackbody:
+  if (s.type == Type::blackbody)
     v.field("temperature_k", "Temperature.", s.temperature_k, {.unit = "K", .bounds = within(300, 1e6), .required = true});
-    break;
-  case Type::lines:
+  if (s.type == Type::lines)
     v.field("table", "Wavelength and relative power of each line.", s.table,
             {.count = {1, max_rows}, .columns = {nm, power}, .required = true});
-    break;
-  case Type::table:
+  if (s.type == Type::table)
     v.field("table", "Rows of wavelength and relative power.", s.table, {.count = {2, max_rows}, .columns = {nm, power}, .required = true});
-    break;
-  }
 }
 
 void describe(Fields& v, Reflectance& r)
@@ -71,21 +57,15 @@ void describe(Fields& v, Reflectance& r)
   v.shorthand(Bare::text, Reflectance::Type::patch, "patch");
   using Type = Reflectance::Type;
   v.type("type", "Where the reflectance comes from.", r.type);
-  switch (r.type) {
-  case Type::constant:
-    v.field("value", "Reflectance.", r.value, {.bounds = within(0, 1), .required = true});
-    break;
-  case Type::patch:
+  if (r.type == Type::constant) v.field("value", "Reflectance.", r.value, {.bounds = within(0, 1), .required = true});
+  if (r.type == Type::patch)
     v.field("patch", "Name of a ColorChecker patch, such as \"blue sky\".", r.patch,
             {.text = Text::line, .names = Names::patch, .required = true});
-    break;
-  case Type::table:
+  if (r.type == Type::table)
     v.field("table", "Rows of wavelength and reflectance.", r.table,
             {.count = {1, max_rows},
              .columns = {{"wavelength", "nm", wavelength_bounds}, {"reflectance", "", within(0, 1)}},
              .required = true});
-    break;
-  }
 }
 
 void describe(Fields& v, Material& m)
@@ -115,30 +95,16 @@ void describe(Fields& v, Shape& s)
     v.field(name, sentence, value, {.unit = length_unit, .bounds = length_bounds});
   };
   v.type("type", "Which shape.", s.type);
-  switch (s.type) {
-  case Type::quad:
-    length("size", "Edge lengths along x and z; the middle number is not used.", s.size);
-    break;
-  case Type::box:
-  case Type::plate:
-    length("size", "Edge lengths along x, y and z.", s.size);
-    break;
-  case Type::sphere:
-  case Type::cylinder:
-    length("radius", "Radius.", s.radius);
-    if (s.type == Type::sphere) break;
-    length("height", "Length along y.", s.height);
-    v.field("segments", "Facets around.", s.segments, {.bounds = within(3, 4096)});
-    break;
-  case Type::prism:
-    length("height", "Length along y.", s.height);
+  if (s.type == Type::quad) length("size", "Edge lengths along x and z; the middle number is not used.", s.size);
+  if (s.type == Type::box || s.type == Type::plate) length("size", "Edge lengths along x, y and z.", s.size);
+  if (s.type == Type::sphere || s.type == Type::cylinder) length("radius", "Radius.", s.radius);
+  if (s.type == Type::brilliant) length("radius", "Radius of the girdle.", s.radius);
+  if (s.type == Type::cylinder || s.type == Type::prism) length("height", "Length along y.", s.height);
+  if (s.type == Type::cylinder) v.field("segments", "Facets around.", s.segments, {.bounds = within(3, 4096)});
+  if (s.type == Type::prism) {
     v.field("apex_deg", "Angle between the two equal sides; their edge is at +z.", s.apex_deg,
             {.unit = "degrees", .bounds = within(0.1, 179)});
     length("side", "Length of the two equal sides.", s.side);
-    break;
-  case Type::brilliant:
-    length("radius", "Radius of the girdle.", s.radius);
-    break;
   }
   v.field("inwards", "Turn the shape inside out, for a room.", s.inwards);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preset/differences.h"
 
-#include "base/error.h"
 #include "base/files.h"
 #include "preset/describe.h"
 #include "preset/document.h"
@@ -13,8 +12,6 @@
 #include <cctype>
 #include <optional>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 namespace nephroid::preset {
 namespace fs = std::filesystem;
@@ -148,6 +145,41 @@ fs::path absolute_path(const fs::path& file)
 
 constexpr const char* save_first = "save the preset first, then copy the command line";
 
+/// The name that means from folder `to` the preset file that `parent` means from `from`.
+std::string parent_from(const std::string& parent, const fs::path& from, const fs::path& to)
+{
+  const fs::path meant = find_preset(parent, from, "parent");
+  std::error_code error;
+  try {
+    if (fs::equivalent(find_preset(parent, to, "parent"), meant, error)) return parent;
+  } catch (const Error&) {
+    // it means nothing there
+  }
+  if (const std::string shipped = shipped_name(meant); !shipped.empty()) return shipped;
+  const fs::path relative = fs::relative(meant, to.empty() ? fs::path(".") : to, error);
+  return error || relative.empty() ? absolute_path(meant).string() : relative.generic_string();
+}
+
+/// What a child file of this parent has to say.
+Json child_of(const Preset& preset, const std::string& parent, const fs::path& file, const Json& sweep)
+{
+  const Read base = read_without_sweep(Json{{"parent", parent}}.dump(), file);
+  Json child{{"parent", parent}};
+  // The parent's own name and description are not inherited; without a name it is the file's.
+  if (preset.name != file.stem().string()) child["name"] = preset.name;
+  if (!preset.description.empty()) child["description"] = preset.description;
+  if (base.sweep != sweep) child["sweep"] = sweep;
+  Json before = as_json(value_of(base.preset)), after = as_json(value_of(preset));
+  for (Json* json : {&before, &after})
+    for (const char* own : {"name", "description"}) json->erase(own);
+  for (const Edit& edit : Comparison(false).edits(before, after, base.document.value())) {
+    Json* slot = &child;
+    for (const std::string& key : edit.path) slot = &(*slot)[key];
+    *slot = edit.value;
+  }
+  return child;
+}
+
 } // namespace
 
 std::string own_parent(const fs::path& file)
@@ -163,14 +195,10 @@ std::string own_parent(const fs::path& file)
 
 std::string shipped_name(const fs::path& file)
 {
-  try {
-    std::error_code unknown;
-    const fs::path inside = fs::relative(file, presets_folder(), unknown);
-    if (unknown || inside.empty() || *inside.begin() == ".." || inside.extension() != ".json") return {};
-    return fs::path(inside).replace_extension().generic_string();
-  } catch (const Error&) {
-    return {}; // there is no folder of shipped presets
-  }
+  std::error_code unknown;
+  const fs::path presets = presets_folder_if_any(), inside = presets.empty() ? presets : fs::relative(file, presets, unknown);
+  if (unknown || inside.empty() || *inside.begin() == ".." || inside.extension() != ".json") return {};
+  return fs::path(inside).replace_extension().generic_string();
 }
 
 Recipe recipe_of(const Preset& preset)
@@ -224,45 +252,6 @@ Preset moved_to_file(Preset preset, const fs::path& file)
   preset.source = file.string();
   return preset;
 }
-
-namespace {
-
-/// The name that means from folder `to` the preset file that `parent` means from `from`.
-std::string parent_from(const std::string& parent, const fs::path& from, const fs::path& to)
-{
-  const fs::path meant = find_preset(parent, from, "parent");
-  std::error_code error;
-  try {
-    if (fs::equivalent(find_preset(parent, to, "parent"), meant, error)) return parent;
-  } catch (const Error&) {
-    // it means nothing there
-  }
-  if (const std::string shipped = shipped_name(meant); !shipped.empty()) return shipped;
-  const fs::path relative = fs::relative(meant, to.empty() ? fs::path(".") : to, error);
-  return error || relative.empty() ? absolute_path(meant).string() : relative.generic_string();
-}
-
-/// What a child file of this parent has to say.
-Json child_of(const Preset& preset, const std::string& parent, const fs::path& file, const Json& sweep)
-{
-  const Read base = read_without_sweep(Json{{"parent", parent}}.dump(), file);
-  Json child{{"parent", parent}};
-  // The parent's own name and description are not inherited; without a name it is the file's.
-  if (preset.name != file.stem().string()) child["name"] = preset.name;
-  if (!preset.description.empty()) child["description"] = preset.description;
-  if (base.sweep != sweep) child["sweep"] = sweep;
-  Json before = as_json(value_of(base.preset)), after = as_json(value_of(preset));
-  for (Json* json : {&before, &after})
-    for (const char* own : {"name", "description"}) json->erase(own);
-  for (const Edit& edit : Comparison(false).edits(before, after, base.document.value())) {
-    Json* slot = &child;
-    for (const std::string& key : edit.path) slot = &(*slot)[key];
-    *slot = edit.value;
-  }
-  return child;
-}
-
-} // namespace
 
 std::vector<Difference> differences(const Preset& before, const Preset& after)
 {

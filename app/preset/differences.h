@@ -3,11 +3,6 @@
 // handed out, so that what they say is the preset.
 #pragma once
 #include "preset/read.h"
-#include "preset/sweep.h"
-
-#include <filesystem>
-#include <string>
-#include <vector>
 
 namespace nephroid::preset {
 

@@ -4,15 +4,9 @@
 #pragma once
 #include "preset/json_text.h"
 #include "preset/origins.h"
-#include "preset/sweep.h"
+#include "preset/read.h"
 
 #include <nlohmann/json.hpp>
-
-#include <filesystem>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace nephroid::preset {
 

@@ -67,9 +67,9 @@ struct Choice {
   std::string_view name, sentence;
 };
 
-/// Every word of the enumeration E: specialised in choices.h.
+/// Every word of the enumeration E: an array of Choice<E>, specialised in choices.h.
 template <class E>
-struct Choices;
+inline constexpr int choices = 0;
 
 template <class E>
 concept Enumeration = std::is_enum_v<E>;
@@ -77,7 +77,7 @@ concept Enumeration = std::is_enum_v<E>;
 template <Enumeration E>
 constexpr std::string_view word(E value)
 {
-  for (const Choice<E>& choice : Choices<E>::all)
+  for (const Choice<E>& choice : choices<E>)
     if (choice.value == value) return choice.name;
   return {};
 }

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preset files: finding them, reading their text, following their parents; and the names of files that a preset holds.
 #include "base/files.h"
-#include "base/error.h"
 #include "base/nearest.h"
 #include "preset/describe.h"
 #include "preset/document.h"
-#include "preset/read.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <optional>
 #include <system_error>
 
 namespace nephroid::preset {
@@ -26,19 +22,10 @@ bool is_file(const fs::path& path)
   return fs::exists(path, ignored) && !fs::is_directory(path, ignored);
 }
 
-std::optional<fs::path> shipped_folder()
-{
-  try {
-    return presets_folder();
-  } catch (const Error&) {
-    return std::nullopt; // without presets/ a path still works
-  }
-}
-
 std::string nearest_shipped(const std::string& name)
 {
   std::vector<std::string> known;
-  if (shipped_folder())
+  if (!presets_folder_if_any().empty())
     for (const ShippedPreset& preset : shipped_presets()) known.push_back(preset.name);
   const std::string found = nearest(name, known);
   return found.empty() ? "see `nephroid presets`" : fmt::format("did you mean '{}'?", found);
@@ -135,7 +122,7 @@ fs::path find_preset(const std::string& name, const fs::path& folder, const Plac
 {
   if (name.empty() || name.find('\0') != std::string::npos) throw bad_input(where, "the name of a preset is empty or holds a NUL");
   std::vector<fs::path> folders{folder};
-  if (const auto shipped = shipped_folder(); shipped && fs::path(name).is_relative()) folders.push_back(*shipped);
+  if (fs::path shipped = presets_folder_if_any(); !shipped.empty() && fs::path(name).is_relative()) folders.push_back(std::move(shipped));
   for (const fs::path& f : folders)
     for (const char* extension : {"", ".json"})
       if (const fs::path candidate = f / (name + extension); is_file(candidate)) return candidate;

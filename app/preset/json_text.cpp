@@ -4,7 +4,6 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/json_output.h"
-#include "base/place.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 namespace nephroid::preset {
 
 Origins::Origins(Origin main) : main_(std::make_shared<const Origin>(std::move(main))) { of_[""] = main_; }

@@ -5,10 +5,6 @@
 #include "preset/preset.h"
 
 #include <filesystem>
-#include <map>
-#include <memory>
-#include <string>
-#include <utility>
 
 namespace nephroid::preset {
 

@@ -8,8 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
-#include <string>
-#include <vector>
 
 namespace nephroid::preset {
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "preset/read.h"
 
-#include "base/error.h"
 #include "base/nearest.h"
 #include "preset/animation.h"
 #include "preset/describe.h"
 #include "preset/document.h"
-#include "preset/origins.h"
-#include "preset/sweep.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>
@@ -127,37 +124,21 @@ private:
 
   void read_value(const Json& json, const std::string& pointer, const Field& f, const Value& value) const
   {
-    const ValueType& type = value.type();
-    switch (type.kind) {
-    case Kind::boolean:
-      if (!json.is_boolean()) refuse(json, pointer, expected(f, type));
-      value.as<bool>() = json.get<bool>();
-      break;
-    case Kind::integer:
-      read_integer(json, pointer, f, value);
-      break;
-    case Kind::number:
-      read_number(json, pointer, f.bounds, f.unit, value);
-      break;
-    case Kind::text:
-      read_text(json, pointer, f, value);
-      break;
-    case Kind::word:
-      read_word(json, pointer, f, value);
-      break;
-    case Kind::object:
-      read_object(json, pointer, value);
-      break;
-    case Kind::map:
-      read_map(json, pointer, f, value);
-      break;
-    case Kind::optional: // null is "not given": a child can take back what its parent gave
+    const Kind kind = value.kind();
+    if (kind == Kind::integer) return read_integer(json, pointer, f, value);
+    if (kind == Kind::number) return read_number(json, pointer, f.bounds, f.unit, value);
+    if (kind == Kind::text) return read_text(json, pointer, f, value);
+    if (kind == Kind::word) return read_word(json, pointer, f, value);
+    if (kind == Kind::object) return read_object(json, pointer, value);
+    if (kind == Kind::map) return read_map(json, pointer, f, value);
+    if (kind == Kind::optional) { // null is "not given": a child can take back what its parent gave
       value.resize(json.is_null() ? 0 : 1);
       if (!json.is_null()) read_value(json, pointer, f, value[0]);
-      break;
-    default:
+    } else if (kind == Kind::boolean) {
+      if (!json.is_boolean()) refuse(json, pointer, expected(f, value.type()));
+      value.as<bool>() = json.get<bool>();
+    } else
       read_list(json, pointer, f, value);
-    }
   }
 
   void read_number(const Json& json, const std::string& pointer, const Bounds& bounds, std::string_view unit, const Value& value) const

@@ -55,9 +55,9 @@ Json text_schema(Text text)
 
 Json words_schema(const std::vector<Word>& words)
 {
-  Json choices = Json::array();
-  for (const Word& word : words) choices.push_back({{"const", word.name}, {"description", word.sentence}});
-  return {{"oneOf", choices}};
+  Json schemas = Json::array();
+  for (const Word& word : words) schemas.push_back({{"const", word.name}, {"description", word.sentence}});
+  return {{"oneOf", schemas}};
 }
 
 Json row_schema(const Columns& columns)
@@ -114,35 +114,21 @@ private:
 
   Json schema_of(const Field& f, const ValueType& type, Presence presence)
   {
-    switch (type.kind) {
-    case Kind::boolean:
-      return {{"type", "boolean"}};
-    case Kind::integer:
-      return number_schema("integer", f.bounds);
-    case Kind::number:
-      return number_schema("number", f.bounds);
-    case Kind::text:
-      return text_schema(f.text);
-    case Kind::word:
-      return words_schema(type.words);
-    case Kind::numbers:
-    case Kind::texts: {
+    const Kind kind = type.kind;
+    if (kind == Kind::boolean) return {{"type", "boolean"}};
+    if (kind == Kind::integer || kind == Kind::number) return number_schema(kind == Kind::integer ? "integer" : "number", f.bounds);
+    if (kind == Kind::text) return text_schema(f.text);
+    if (kind == Kind::word) return words_schema(type.words);
+    if (kind == Kind::numbers || kind == Kind::texts) {
       const Json item = schema_of(f, *type.item, presence);
       const Json list = list_schema(item, type.size > 0 ? Count{type.size, type.size} : f.count);
       return f.bare_number ? Json{{"anyOf", {list, item}}} : list;
     }
-    case Kind::table:
-      return list_schema(row_schema(f.columns), f.count);
-    case Kind::list:
-      return list_schema(reference(*type.item, Presence::whole), f.count);
-    case Kind::map:
+    if (kind == Kind::table) return list_schema(row_schema(f.columns), f.count);
+    if (kind == Kind::list) return list_schema(reference(*type.item, Presence::whole), f.count);
+    if (kind == Kind::map)
       return {{"type", "object"}, {"additionalProperties", or_null(reference(*type.item, presence))}, {"maxProperties", f.count.high}};
-    case Kind::optional:
-      return or_null(schema_of(f, *type.item, presence));
-    case Kind::object:
-      break;
-    }
-    return reference(type, presence);
+    return kind == Kind::optional ? or_null(schema_of(f, *type.item, presence)) : reference(type, presence);
   }
 
   Json reference(const ValueType& type, Presence presence)
@@ -169,7 +155,7 @@ private:
   /// The struct's types one by one, then its shorthands; as a part also any of their fields without a type.
   Json alternatives(const Value& object, Presence presence)
   {
-    Json choices = Json::array(), bare = Json::array(), any_field = Json::object();
+    Json schemas = Json::array(), bare = Json::array(), any_field = Json::object();
     const std::vector<Word> words = object.members().front().value.type().words;
     const std::string key(object.members().front().field.name);
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -177,7 +163,7 @@ private:
       const Properties own = properties(object, presence);
       Json schema = own.schema(std::string(words[i].name), words[i].sentence);
       schema["required"] = presence == Presence::whole ? own.required : Json::array({key});
-      choices.push_back(std::move(schema));
+      schemas.push_back(std::move(schema));
       for (const auto& [name, property] : own.properties.items())
         if (name != key) { // fields of one name and several meanings: anything goes, the program knows
           const bool clear = !any_field.contains(name) || any_field[name] == property;
@@ -186,13 +172,13 @@ private:
       for (const Shorthand& shorthand : object.type().shorthands)
         if (shorthand.type == words[i].name) bare.push_back(own.properties[std::string(shorthand.field)]);
     }
-    for (Json& schema : bare) choices.push_back(std::move(schema));
+    for (Json& schema : bare) schemas.push_back(std::move(schema));
     if (presence == Presence::part) {
       Properties inherited;
       inherited.properties = any_field;
-      choices.push_back(inherited.schema("inherited", "Some fields; the type is the parent's."));
+      schemas.push_back(inherited.schema("inherited", "Some fields; the type is the parent's."));
     }
-    return {{"title", object.type().name}, {"description", object.type().sentence}, {"oneOf", choices}};
+    return {{"title", object.type().name}, {"description", object.type().sentence}, {"oneOf", schemas}};
   }
 };
 

@@ -7,11 +7,6 @@
 #include "preset/value.h"
 
 #include <algorithm>
-#include <any>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
 
 namespace nephroid::preset {
 

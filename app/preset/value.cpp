@@ -3,7 +3,6 @@
 
 #include "preset/settings_type.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace nephroid::preset {
@@ -64,20 +63,6 @@ ValueType make_type(Settings*)
   };
   type.choose = [](void* settings, std::size_t i) { *static_cast<Settings*>(settings) = Settings(*settings_types()[i]); };
   return type;
-}
-
-Kind kind_of_list(Kind item)
-{
-  switch (item) {
-  case Kind::number:
-    return Kind::numbers;
-  case Kind::text:
-    return Kind::texts;
-  case Kind::numbers:
-    return Kind::table;
-  default:
-    return Kind::list;
-  }
 }
 
 } // namespace nephroid::preset

@@ -6,17 +6,11 @@
 #include "preset/settings.h"
 
 #include <array>
-#include <concepts>
-#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <vector>
 
 namespace nephroid::preset {
 
@@ -165,13 +159,13 @@ template <Enumeration E>
 ValueType make_type(E*)
 {
   ValueType type{.kind = Kind::word};
-  for (const Choice<E>& choice : Choices<E>::all) type.words.push_back({choice.name, choice.sentence});
+  for (const Choice<E>& choice : choices<E>) type.words.push_back({choice.name, choice.sentence});
   type.word = [](const void* value) {
     std::size_t i = 0;
-    while (Choices<E>::all[i].value != *static_cast<const E*>(value)) ++i;
+    while (choices<E>[i].value != *static_cast<const E*>(value)) ++i;
     return i;
   };
-  type.choose = [](void* value, std::size_t i) { *static_cast<E*>(value) = Choices<E>::all[i].value; };
+  type.choose = [](void* value, std::size_t i) { *static_cast<E*>(value) = choices<E>[i].value; };
   return type;
 }
 
@@ -186,7 +180,10 @@ ValueType make_type(std::array<T, N>*)
   return type;
 }
 
-Kind kind_of_list(Kind item);
+constexpr Kind kind_of_list(Kind item)
+{
+  return item == Kind::number ? Kind::numbers : item == Kind::text ? Kind::texts : item == Kind::numbers ? Kind::table : Kind::list;
+}
 
 template <class T>
 ValueType make_type(std::vector<T>*)

@@ -63,26 +63,16 @@ Json object_of(const Value& value)
 
 Json as_json(const Value& value)
 {
-  switch (value.kind()) {
-  case Kind::boolean:
-    return value.as<bool>();
-  case Kind::integer:
-    return value.is<int>() ? Json(value.as<int>()) : Json(value.as<std::uint64_t>());
-  case Kind::number:
-    return value.as<double>();
-  case Kind::text:
-    return value.as<std::string>();
-  case Kind::word:
-    return std::string(value.word().name);
-  case Kind::map:
-    return map_of(value);
-  case Kind::object:
-    return object_of(value);
-  case Kind::optional:
-    return value.count() > 0 ? as_json(value[0]) : Json();
-  default:
-    return list_of(value);
-  }
+  const Kind kind = value.kind();
+  if (kind == Kind::boolean) return value.as<bool>();
+  if (kind == Kind::integer) return value.is<int>() ? Json(value.as<int>()) : Json(value.as<std::uint64_t>());
+  if (kind == Kind::number) return value.as<double>();
+  if (kind == Kind::text) return value.as<std::string>();
+  if (kind == Kind::word) return std::string(value.word().name);
+  if (kind == Kind::map) return map_of(value);
+  if (kind == Kind::object) return object_of(value);
+  if (kind == Kind::optional) return value.count() > 0 ? as_json(value[0]) : Json();
+  return list_of(value);
 }
 
 std::string expected_number(const Bounds& bounds, std::string_view unit) { return "a number" + in_range(bounds) + in_unit(unit); }
@@ -98,31 +88,19 @@ std::string expected(const Field& f, const ValueType& type)
   const auto list = [&](const std::string& item) {
     return fmt::format("a list of {}, each {}", type.size > 0 ? fmt::format("{} items", type.size) : expected_count(f.count), item);
   };
-  switch (type.kind) {
-  case Kind::boolean:
-    return "true or false";
-  case Kind::integer:
-    return expected_integer(f.bounds, f.unit);
-  case Kind::number:
-    return expected_number(f.bounds, f.unit);
-  case Kind::text:
-    return f.text == Text::file ? "the name of a file" : "a string";
-  case Kind::word: {
+  if (type.kind == Kind::boolean) return "true or false";
+  if (type.kind == Kind::integer) return expected_integer(f.bounds, f.unit);
+  if (type.kind == Kind::number) return expected_number(f.bounds, f.unit);
+  if (type.kind == Kind::text) return f.text == Text::file ? "the name of a file" : "a string";
+  if (type.kind == Kind::word) {
     std::string words;
     for (const Word& word : type.words) words += (words.empty() ? "one of " : ", ") + std::string(word.name);
     return words;
   }
-  case Kind::table:
-    return list(fmt::format("[{}, {}]", f.columns.first.name, f.columns.second.name));
-  case Kind::map:
-    return fmt::format("an object of names with {}, each {}", expected_count(f.count), expected(f, *type.item));
-  case Kind::optional:
-    return expected(f, *type.item);
-  case Kind::object:
-    return expected_object(type);
-  default:
-    return list(expected(f, *type.item));
-  }
+  if (type.kind == Kind::table) return list(fmt::format("[{}, {}]", f.columns.first.name, f.columns.second.name));
+  if (type.kind == Kind::map) return fmt::format("an object of names with {}, each {}", expected_count(f.count), expected(f, *type.item));
+  if (type.kind == Kind::optional) return expected(f, *type.item);
+  return type.kind == Kind::object ? expected_object(type) : list(expected(f, *type.item));
 }
 
 } // namespace nephroid::preset

@@ -5,11 +5,6 @@
 #include "preset/origins.h"
 #include "preset/value.h"
 
-#include <filesystem>
-#include <string>
-#include <string_view>
-#include <vector>
-
 namespace nephroid::preset {
 
 class Document;

@@ -7,10 +7,8 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
+#include <set>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace nephroid::report {
 
@@ -32,6 +30,9 @@ struct RunFolder {
 };
 
 inline constexpr std::size_t max_runs = 64;
+
+/// The files in a folder whose names end so (".exr"), by name.
+std::set<std::filesystem::path> files_ending(const std::filesystem::path& folder, const std::string& extension);
 
 /// The runs in these folders: a folder with a run.json is one, a sweep's folder stands for the runs in its own folders, by name.
 /// Throws bad_input for a folder that is neither or is named twice, for more runs than max_runs, for an unfinished run, and at FILE or

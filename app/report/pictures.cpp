@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <set>
 
 namespace nephroid::report {
@@ -38,11 +37,10 @@ std::string base64(std::string_view bytes)
 /// image.exr first, there or not, then the others in the order of their names.
 std::vector<fs::path> picture_files(const fs::path& folder)
 {
-  std::set<fs::path> others;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (entry->path().extension() == ".exr" && entry->path().stem() != main_name) others.insert(entry->path());
-  std::vector<fs::path> files{folder / fmt::format("{}.exr", main_name)};
+  std::set<fs::path> others = files_ending(folder, ".exr");
+  const fs::path first = folder / fmt::format("{}.exr", main_name);
+  others.erase(first);
+  std::vector<fs::path> files{first};
   files.insert(files.end(), others.begin(), others.end());
   return files;
 }

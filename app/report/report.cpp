@@ -3,7 +3,6 @@
 // is required: a report with holes would be believed.
 #include "report/report.h"
 
-#include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
 #include "measure/difference.h"
@@ -110,12 +109,9 @@ Json read_curve(const fs::path& file)
 
 Json read_curves(const fs::path& folder)
 {
-  std::set<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (entry->path().extension() == ".csv" && entry->path().filename() != "history.csv") files.insert(entry->path());
   Json curves = Json::array();
-  for (const fs::path& file : files) curves.push_back(read_curve(file));
+  for (const fs::path& file : files_ending(folder, ".csv"))
+    if (file.filename() != "history.csv") curves.push_back(read_curve(file));
   return curves;
 }
 
@@ -194,11 +190,7 @@ std::string script_safe(const std::string& json)
 {
   std::string text;
   text.reserve(json.size());
-  for (const char c : json)
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
+  for (const char c : json) text += c == '<' ? "\\u003c" : std::string(1, c);
   return text;
 }
 
@@ -209,6 +201,15 @@ const std::string& page_file(std::string_view name)
 }
 
 } // namespace
+
+std::set<fs::path> files_ending(const fs::path& folder, const std::string& extension)
+{
+  std::set<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->path().extension() == extension) files.insert(entry->path());
+  return files;
+}
 
 std::vector<RunFolder> read_runs(std::span<const fs::path> folders)
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/animation.h"
 
-#include "base/error.h"
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/run_files.h"
@@ -20,7 +19,6 @@
 #include <iterator>
 #include <spawn.h>
 #include <sstream>
-#include <string_view>
 #include <sys/wait.h>
 #include <system_error>
 #include <unistd.h>

@@ -5,11 +5,6 @@
 #include "preset/preset.h"
 #include "run/run.h"
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::run {
 
 /// frames/0003 in the animation's folder: the folder of the frame's own run.

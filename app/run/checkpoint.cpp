@@ -12,9 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-
 namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {

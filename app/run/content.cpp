@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/content.h"
 
-#include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "engine/engine.h"
 #include "preset/read.h"
@@ -10,8 +9,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <algorithm>
 
 namespace nephroid::run {
 namespace fs = std::filesystem;

@@ -5,10 +5,7 @@
 #include "plan/plan.h"
 #include "preset/preset.h"
 
-#include <cstdint>
 #include <filesystem>
-#include <string>
-#include <vector>
 
 namespace nephroid::run {
 

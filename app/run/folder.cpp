@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The folder of a run, before and while it runs: whose it is, that it can be written to, that it holds one run's files only.
 #include "base/files.h"
-#include "plan/plan.h"
 #include "preset/read.h"
 #include "run/animation.h"
 #include "run/content.h"
-#include "run/picture.h"
-#include "run/run.h"
 
 #include <nlohmann/json.hpp>
 
@@ -30,19 +27,6 @@ bool holds_a_run_or_nothing(const fs::path& folder)
   return true;
 }
 
-/// What the engine of an older run wrote, by its run.json.
-void remove_files_of_engine(const fs::path& folder)
-{
-  std::error_code ignored;
-  for (const std::string& name : engine_files(folder)) fs::remove(folder / name, ignored);
-}
-
-void remove_leftovers(const fs::path& folder)
-{
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (is_temporary_name(entry.path())) fs::remove(entry.path());
-}
-
 bool claim(const fs::path& folder)
 {
   if (is_there(folder) && !fs::is_directory(folder))
@@ -51,7 +35,8 @@ bool claim(const fs::path& folder)
   if (!holds_a_run_or_nothing(folder))
     throw bad_input(folder.string(), "holds files that are not of a run", "expected an empty or a new folder",
                     "choose another one with -o");
-  remove_leftovers(folder);
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (is_temporary_name(entry.path())) fs::remove(entry.path());
   const fs::path probe = folder / "probe";
   write_file_whole(probe, "writable?\n");
   fs::remove(probe);
@@ -92,11 +77,9 @@ std::vector<std::string> engine_files(const fs::path& folder)
 
 void begin_run(const fs::path& folder, const Prepared& prepared)
 {
-  remove_files_of_engine(folder);
-  for (const char* name : results) {
-    std::error_code ignored;
-    fs::remove(folder / name, ignored);
-  }
+  std::error_code ignored;
+  for (const std::string& name : engine_files(folder)) fs::remove(folder / name, ignored); // of an older run, by its run.json
+  for (const char* name : results) fs::remove(folder / name, ignored);
   remove_pictures_after(folder, -1);
   remove_frames(folder, 0);
   write_settings(folder, prepared);

@@ -5,7 +5,6 @@
 #include "base/files.h"
 #include "engine/engine.h"
 #include "run/content.h"
-#include "run/memory.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +12,7 @@
 #include <charconv>
 #include <cstring>
 #include <numeric>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 namespace nephroid::run {
 namespace {

@@ -16,9 +16,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {
@@ -154,14 +151,6 @@ void write_reference(const fs::path& file, const Prepared& prepared, const std::
   image::write_exr(file, image);
 }
 
-void make_folder(const fs::path& folder)
-{
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw failed(folder.string(), "the reference cannot be kept here: " + error.message(), "", "set XDG_CACHE_HOME to another folder");
-}
-
 } // namespace
 
 std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context)
@@ -193,7 +182,10 @@ std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepare
                                                          const std::stop_token& stop, const ReferenceProgress& progress)
 {
   const fs::path file = cache_file(prepared, context);
-  make_folder(file.parent_path()); // before hours of work
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error); // before hours of work
+  if (error)
+    throw failed(file.parent_path(), "the reference cannot be kept here: " + error.message(), "", "set XDG_CACHE_HOME to another folder");
   std::vector<float> pictures[2];
   double seconds = 0;
   for (std::size_t i = 0; i < 2; ++i)

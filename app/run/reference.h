@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The reference that a preset names: read from its file, or rendered by its recipe once and kept in the cache by its content.
 #pragma once
-#include "measure/reference.h"
+#include "measure/measured_job.h"
 #include "run/run.h"
 
 #include <functional>
-#include <memory>
 #include <stop_token>
-#include <string>
 
 namespace nephroid::run {
 

@@ -3,18 +3,15 @@
 // The command line and the window both come through here.
 #pragma once
 #include "compute/compute.h"
+#include "image/image.h"
 #include "job/job.h"
-#include "measure/reference.h"
+#include "measure/measured_job.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
+#include <nlohmann/json_fwd.hpp>
 
 namespace nephroid::run {
 
@@ -35,8 +32,20 @@ struct Prepared {
 /// settings differ (files are not read again then), and its tree where the triangles are the same. Throws bad_input as the loaders do.
 Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr);
 
-/// Throws failed where the device or this machine has not enough memory for the run (run/memory.h). make_job asks this first.
+/// Throws failed where the device or this machine has not enough memory for the run. make_job asks this first.
 void require_memory(const Prepared& prepared, const compute::Context& context);
+
+/// What the program itself needs at most to make a picture of width x height pixels, measure it and write its files.
+plan::PlannedBuffer picture_and_files(const plan::Plan& plan, int width, int height);
+
+/// What the system says can be allocated without swapping, in bytes; empty where it does not say.
+std::optional<std::uint64_t> available_memory_bytes();
+
+/// Throws failed, saying what is needed and what there is, where the plan's buffers exceed the device's memory, one of them the
+/// device's largest buffer, or what this machine has to hold (for a cpu device its buffers too) exceeds `available` bytes. width, height:
+/// of the picture, for the message.
+void require_memory(const plan::Plan& plan, int width, int height, const compute::DeviceInfo& device,
+                    std::optional<std::uint64_t> available);
 
 /// Builds the engine's job on a device. Throws as require_memory, before anything is allocated, BuildError for a kernel that does not
 /// compile, and bad_input for what the engine cannot render.
@@ -68,6 +77,33 @@ std::optional<FinishedRun> finished_run(const std::filesystem::path& folder, con
 /// missing), each whole; no image where the snapshot's stands in for one. reference: what the run was measured against, or null.
 void write_run(const std::filesystem::path& folder, const Prepared& prepared, const compute::DeviceInfo& device,
                const job::Snapshot& snapshot, const measure::Reference* reference, bool finished);
+// A job's picture as files hold it: the last one, and those at chosen times of work, at-0010s.png and .exr, with pictures.json, which says
+// what error each has.
+
+/// Channels R, G, B (the sum), then NAME.R, NAME.G, NAME.B of each layer; no attributes yet.
+image::Image with_layers(const job::Picture& picture);
+
+/// STEM.exr with its layers, and as attributes the preset, its seed, the device and the program's version; and STEM.png as shown.
+void write_picture(const std::filesystem::path& stem, const preset::Preset& preset, const compute::DeviceInfo& device,
+                   const job::Picture& picture);
+
+inline constexpr const char* pictures_file = "pictures.json";
+
+/// Errors by the names of a history's columns; what is undefined is null.
+nlohmann::ordered_json by_column(const std::vector<std::string>& columns, const std::vector<double>& values);
+
+/// The list in the folder's pictures.json, of {"seconds": as asked for, "work_seconds": when it was made, "picture": its file,
+/// "errors": by column}; empty where there is none.
+nlohmann::ordered_json pictures_at(const std::filesystem::path& folder);
+
+/// Writes both pictures and adds them to the list. Returns what it added. The errors are those of the newest row of the history where
+/// that is of `seconds` or later. Throws failed as write_run does.
+nlohmann::ordered_json write_picture_at(const std::filesystem::path& folder, double seconds, const Prepared& prepared,
+                                        const compute::DeviceInfo& device, const job::Snapshot& snapshot);
+
+/// Removes those of later than work_seconds: of work that a resumed run does again, or all (-1).
+void remove_pictures_after(const std::filesystem::path& folder, double work_seconds);
+
 /// report.html of a run whose other files are written. Throws as report::report_html does.
 void write_report(const std::filesystem::path& folder);
 /// history.csv alone, while the run goes on.

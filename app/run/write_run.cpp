@@ -5,10 +5,8 @@
 #include "base/files.h"
 #include "base/json_output.h"
 #include "measure/history_file.h"
-#include "plan/plan.h"
 #include "preset/read.h"
 #include "report/report.h"
-#include "run/picture.h"
 #include "run/run.h"
 
 #include <fmt/format.h>
@@ -17,7 +15,6 @@
 
 #include <cmath>
 #include <iterator>
-#include <span>
 
 namespace nephroid::run {
 namespace fs = std::filesystem;

@@ -4,13 +4,11 @@
 #pragma once
 #include "scene/mesh.h"
 
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace nephroid::scene {
 

@@ -2,7 +2,6 @@
 #include "scene/scene.h"
 
 #include "base/counted.h"
-#include "base/error.h"
 #include "image/image.h"
 
 #include <fmt/format.h>

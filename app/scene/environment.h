@@ -11,8 +11,6 @@
 #include "preset/preset.h"
 
 #include <cstddef>
-#include <string>
-#include <vector>
 
 namespace nephroid::scene {
 

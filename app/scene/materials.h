@@ -7,10 +7,6 @@
 #include "preset/preset.h"
 #include "scene/scene.h"
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 namespace nephroid::scene {
 
 /// The preset's words for it, which knows nothing of optics, are the same in the same order.

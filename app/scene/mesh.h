@@ -9,7 +9,12 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
+
+namespace nephroid {
+class ByteSink;
+}
 
 namespace nephroid::scene {
 
@@ -43,6 +48,9 @@ Mesh load_mesh(const std::filesystem::path& file);
 std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file);
 /// Whether the mesh's data may be in other files, which this one names: a .gltf's.
 bool has_further_files(const std::filesystem::path& file);
+
+/// Binary PLY, little-endian, with normals where the mesh has them. comment: one line, or empty.
+void write_ply(const Mesh& mesh, ByteSink& to, std::string_view comment = {});
 
 /// What is wrong with a mesh. Vertices at equal positions count as one here, whatever their normals.
 struct MeshReport {

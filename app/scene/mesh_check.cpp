@@ -9,9 +9,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cstdint>
-#include <utility>
-#include <vector>
 
 namespace nephroid::scene {
 namespace {

@@ -1,30 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mesh files, read by a small program of its own (reader/main.cpp), which may crash, hang or run out of memory over them. Nothing that it
 // answers is believed before it was looked at: a file that corrupts its memory makes it say anything.
-#include "base/error.h"
 #include "base/files.h"
 #include "base/hashed_bytes.h"
-#include "scene/mesh.h"
 #include "scene/mesh_parts.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <fcntl.h>
 #include <list>
-#include <memory>
 #include <mutex>
 #include <spawn.h>
-#include <stdexcept>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <utility>
 
 namespace nephroid::scene {
 namespace {
@@ -217,6 +209,25 @@ std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file)
   std::uint64_t sum = 0;
   all.remove_if([&](const Kept& kept) { return (sum += bytes_of(*kept.mesh)) > most_bytes; });
   return wanted.mesh;
+}
+
+void write_ply(const Mesh& mesh, ByteSink& to, std::string_view comment)
+{
+  const bool with_normals = !mesh.normals.empty();
+  const std::string head =
+      fmt::format("ply\nformat binary_little_endian 1.0\n{}element vertex {}\nproperty float x\nproperty float y\n"
+                  "property float z\n{}element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+                  comment.empty() ? std::string() : fmt::format("comment {}\n", comment), mesh.positions.size(),
+                  with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "", mesh.triangles.size());
+  to.write(std::as_bytes(std::span(head)));
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    to.write(std::as_bytes(std::span(&mesh.positions[i], 1)));
+    if (with_normals) to.write(std::as_bytes(std::span(&mesh.normals[i], 1)));
+  }
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    to.value(std::uint8_t{3});
+    to.write(std::as_bytes(std::span(&triangle, 1)));
+  }
 }
 
 } // namespace nephroid::scene

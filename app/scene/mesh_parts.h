@@ -4,12 +4,7 @@
 #include "base/place.h"
 #include "scene/mesh.h"
 
-#include <cstdint>
 #include <cstdio>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace nephroid::scene {
 

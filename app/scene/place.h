@@ -5,17 +5,10 @@
 #include "preset/preset.h"
 #include "scene/scene.h"
 
-#include <glm/glm.hpp>
-
-#include <string>
-#include <vector>
-
 namespace nephroid::scene {
 
 /// Beyond this a squared area no longer fits into single precision. In the preset's unit, from Scene::origin.
 inline constexpr double max_coordinate = 1e9;
-
-inline glm::dvec3 to_dvec3(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 /// p -> linear p + offset, from the mesh's coordinates to the preset's.
 struct Placement {

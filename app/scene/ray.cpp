@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
-#include <vector>
 
 namespace nephroid::scene {
 namespace {

@@ -2,17 +2,13 @@
 // Puts the scene together: materials, then objects in place, then the lights and the camera, which need to know the objects.
 #include "scene/scene.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include "scene/materials.h"
 #include "scene/place.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
-#include <memory>
 #include <numbers>
 
 namespace nephroid::scene {

@@ -9,16 +9,12 @@
 #include "scene/environment.h"
 #include "scene/mesh.h"
 
-#include <glm/glm.hpp>
-
-#include <cstdint>
 #include <limits>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace nephroid::scene {
+
+inline glm::dvec3 to_dvec3(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }
+inline preset::Vec3 to_vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 /// A box along the axes. Without a point in it, as it is made here, low is above high.
 struct Bounds {

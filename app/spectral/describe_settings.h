@@ -7,51 +7,39 @@
 namespace nephroid::preset {
 
 template <>
-struct Choices<spectral::Settings::Method> {
-  using Method = spectral::Settings::Method;
-  static constexpr Choice<Method> all[] = {{Method::optimal, "optimal", "The fewest clusters that keep the threshold."},
-                                           {Method::thesis, "thesis", "Algorithm 4.1 of the thesis, as printed."},
-                                           {Method::brute_force, "brute_force", "Every wavelength on its own."}};
-};
+inline constexpr Choice<spectral::Settings::Method> choices<spectral::Settings::Method>[] = {
+    {spectral::Settings::Method::optimal, "optimal", "The fewest clusters that keep the threshold."},
+    {spectral::Settings::Method::thesis, "thesis", "Algorithm 4.1 of the thesis, as printed."},
+    {spectral::Settings::Method::brute_force, "brute_force", "Every wavelength on its own."}};
 
 template <>
-struct Choices<spectral::Settings::Estimator> {
-  using Estimator = spectral::Settings::Estimator;
-  static constexpr Choice<Estimator> all[] = {
-      {Estimator::automatic, "automatic", "Splats where the camera sees the receiver directly, photon maps elsewhere."},
-      {Estimator::splat, "splat", "Splats only: what is seen through glass or in a mirror has no caustics."},
-      {Estimator::sppm, "sppm", "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
-};
+inline constexpr Choice<spectral::Settings::Estimator> choices<spectral::Settings::Estimator>[] = {
+    {spectral::Settings::Estimator::automatic, "automatic", "Splats where the camera sees the receiver directly, photon maps elsewhere."},
+    {spectral::Settings::Estimator::splat, "splat", "Splats only: what is seen through glass or in a mirror has no caustics."},
+    {spectral::Settings::Estimator::sppm, "sppm", "Progressive photon mapping, a run of its own for each cluster, as the thesis has it."}};
 
 template <>
-struct Choices<spectral::Settings::Effort> {
-  using Effort = spectral::Settings::Effort;
-  static constexpr Choice<Effort> all[] = {
-      {Effort::automatic, "automatic", "As variance, and as power where that has not gained enough; as power with sppm and relight."},
-      {Effort::power, "power", "By what the eye makes of a cluster's light."},
-      {Effort::equal, "equal", "The same for each cluster."},
-      {Effort::importance, "importance", "By the importance of (4.15): light, luminosity, surroundings."},
-      {Effort::radziszewski, "radziszewski", "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
-      {Effort::variance, "variance",
-       "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm."},
-      {Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
-};
+inline constexpr Choice<spectral::Settings::Effort> choices<spectral::Settings::Effort>[] = {
+    {spectral::Settings::Effort::automatic, "automatic",
+     "As variance, and as power where that has not gained enough; as power with sppm and relight."},
+    {spectral::Settings::Effort::power, "power", "By what the eye makes of a cluster's light."},
+    {spectral::Settings::Effort::equal, "equal", "The same for each cluster."},
+    {spectral::Settings::Effort::importance, "importance", "By the importance of (4.15): light, luminosity, surroundings."},
+    {spectral::Settings::Effort::radziszewski, "radziszewski", "By 1 / cosh^2(0.0072 (lambda - 538)), whatever the scene."},
+    {spectral::Settings::Effort::variance, "variance",
+     "By the variance that is measured while the run goes on, as are the directions of photons; not with sppm."},
+    {spectral::Settings::Effort::random, "random", "One cluster a pass, drawn at random; with sppm only."}};
 
 template <>
-struct Choices<spectral::Settings::Smoothing> {
-  using Smoothing = spectral::Settings::Smoothing;
-  static constexpr Choice<Smoothing> all[] = {
-      {Smoothing::automatic, "automatic", "Where the two halves of the film say that it helps, region by region."},
-      {Smoothing::on, "on", "Everywhere."},
-      {Smoothing::off, "off", "Nowhere."}};
-};
+inline constexpr Choice<spectral::Settings::Smoothing> choices<spectral::Settings::Smoothing>[] = {
+    {spectral::Settings::Smoothing::automatic, "automatic", "Where the two halves of the film say that it helps, region by region."},
+    {spectral::Settings::Smoothing::on, "on", "Everywhere."},
+    {spectral::Settings::Smoothing::off, "off", "Nowhere."}};
 
 template <>
-struct Choices<spectral::Importance::Cluster> {
-  using Cluster = spectral::Importance::Cluster;
-  static constexpr Choice<Cluster> all[] = {{Cluster::maximum, "maximum", "The one that matters most."},
-                                            {Cluster::mean, "mean", "The mean of all."}};
-};
+inline constexpr Choice<spectral::Importance::Cluster> choices<spectral::Importance::Cluster>[] = {
+    {spectral::Importance::Cluster::maximum, "maximum", "The one that matters most."},
+    {spectral::Importance::Cluster::mean, "mean", "The mean of all."}};
 
 } // namespace nephroid::preset
 

@@ -110,7 +110,7 @@ unsigned light_type_bits(const scene::Scene& scene)
 std::string light_types_reason(unsigned bits)
 {
   std::vector<std::string_view> names;
-  for (const auto& choice : preset::Choices<preset::Light::Type>::all)
+  for (const auto& choice : preset::choices<preset::Light::Type>)
     if (bits >> device_light_type(choice.value) & 1) names.push_back(choice.name);
   if (bits >> LIGHT_ENVIRONMENT & 1) names.push_back("environment");
   return names.empty() ? "there is no light" : fmt::format("every light is of type {}", fmt::join(names, " or "));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A preset's JSON, then an override a part. What is read is written and read again.
 #include "preset/read.h"
-#include "preset/sweep.h"
 #include "tests/fuzz/harness.h"
 
 namespace nephroid::fuzz {

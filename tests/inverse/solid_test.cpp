@@ -274,7 +274,7 @@ TEST_F(InverseFiles, MeshesAreReadByOthers)
 {
   const auto obj = written("object.obj", [&](ByteSink&to) { inverse::write_obj(solid.mesh, to); }),
              stl = written("object.stl", [&](ByteSink&to) { inverse::write_stl(solid.mesh, to); }),
-             ply = written("object.ply", [&](ByteSink&to) { inverse::write_ply(solid.mesh, to); });
+             ply = written("object.ply", [&](ByteSink&to) { scene::write_ply(solid.mesh, to, inverse::mesh_title); });
   for (const auto& file : {obj, stl, ply}) {
     const scene::Mesh mesh = scene::load_mesh(file);
     EXPECT_EQ(mesh.triangles.size(), solid.mesh.triangles.size()) << file;

@@ -4,7 +4,6 @@
 #include "base/files.h"
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/adjust.h"
-#include "inverse/thesis/annealer.h"
 #include "inverse/thesis/pipeline.h"
 #include "inverse/thesis/sampler.h"
 #include "inverse/uniform.h"

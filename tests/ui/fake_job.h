@@ -5,7 +5,7 @@
 #include "base/files.h"
 #include "engine/engine.h"
 #include "job/job.h"
-#include "measure/reference.h"
+#include "measure/measured_job.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "spectral/energy.h"

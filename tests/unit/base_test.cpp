@@ -7,7 +7,7 @@
 #include "cli/numbers.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "run/memory.h"
+#include "run/run.h"
 #include "tests/support/errors.h"
 
 #include <nlohmann/json.hpp>

@@ -149,7 +149,7 @@ void EnvironmentPanel::draw_segmentation_row(const Context& context)
   label("by");
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##method", std::string(preset::word(settings.segmentation)).c_str())) {
-    for (const auto& choice : preset::Choices<environment::SegmentMethod>::all) {
+    for (const auto& choice : preset::choices<environment::SegmentMethod>) {
       const std::string name(choice.name);
       if (ImGui::Selectable(name.c_str(), choice.value == settings.segmentation))
         context.edit("method of segmentation", [&](preset::Preset& p) { environment::settings(p).segmentation = choice.value; });

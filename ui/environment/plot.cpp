@@ -64,7 +64,7 @@ void QualityPlot::draw(const ShownMap& shown, float height)
   if (const std::vector<double> ticks = measure::round_levels(range[0], range[1]); ticks.size() > 1) set_up_ticks(ImAxis_Y1, ticks);
   ImPlot::SetupLegend(ImPlotLocation_NorthEast);
   ImPlot::SetupFinish();
-  for (const auto& choice : preset::Choices<environment::SegmentMethod>::all)
+  for (const auto& choice : preset::choices<environment::SegmentMethod>)
     plot_method(std::string(choice.name), shown.quality.at(static_cast<std::size_t>(choice.value)));
   if (shown.cut_error && *shown.cut_error > 0) {
     const double error = to_percent * *shown.cut_error;

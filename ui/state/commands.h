@@ -4,7 +4,7 @@
 #pragma once
 #include "measure/difference.h"
 #include "preset/preset.h"
-#include "preset/sweep.h"
+#include "preset/read.h"
 #include "ui/state/selection.h"
 #include "ui/state/settings.h"
 

@@ -7,7 +7,7 @@
 #include "engine/engine.h"
 #include "image/image.h"
 #include "preset/differences.h"
-#include "run/picture.h"
+#include "run/run.h"
 #include "ui/state/tone.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #pragma once
 #include "compute/compute.h"
 #include "job/worker.h"
-#include "measure/reference.h"
+#include "measure/measured_job.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "ui/state/messages.h"

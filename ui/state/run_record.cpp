@@ -11,7 +11,6 @@
 #include "preset/read.h"
 #include "report/data.h"
 #include "report/report.h"
-#include "run/picture.h"
 #include "run/run.h"
 #include "ui/state/files.h"
 

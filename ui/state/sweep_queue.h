@@ -2,7 +2,7 @@
 // The runs of a sweep, one after the other in place of the run in hand, because a device works on one run at a time. Each is pinned when
 // it is done.
 #pragma once
-#include "preset/sweep.h"
+#include "preset/read.h"
 #include "ui/state/comparing.h"
 #include "ui/state/run_in_hand.h"
 

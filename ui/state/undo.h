@@ -2,7 +2,7 @@
 // Undo and redo: a stack of presets with their sweeps, because these are the whole state. One entry a gesture.
 #pragma once
 #include "preset/preset.h"
-#include "preset/sweep.h"
+#include "preset/read.h"
 
 #include <cstdint>
 #include <deque>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid segment`: the directional lights that an environment is cut into.
 #include "base/counted.h"
-#include "base/error.h"
 #include "base/files.h"
 #include "base/json_output.h"
 #include "cli/verb.h"
@@ -17,8 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <memory>
 
 namespace nephroid::cli {
 namespace {
@@ -116,13 +113,6 @@ void print_text(const SegmentOptions& options, const Result& result)
   }
 }
 
-environment::SegmentSettings settings_of(const SegmentOptions& options)
-{
-  return {.lights = options.lights,
-          .method = options.method == "thesis" ? SegmentMethod::thesis : SegmentMethod::variance,
-          .weights = options.weights == "texel" ? SegmentWeights::texel : SegmentWeights::solid_angle};
-}
-
 void print_segments(const SegmentOptions& options)
 {
   if (!options.picture.empty() && fs::path(options.picture).extension() != ".png")
@@ -132,7 +122,10 @@ void print_segments(const SegmentOptions& options)
       is_preset(options.environment) ? preset_environment(options.environment, warnings) : file_environment(options.environment, warnings);
   for (const std::string& warning : warnings) fmt::print(stderr, "nephroid: {}\n", warning);
   const environment::CubeMap cube = environment::make_cube_map(map);
-  Result result{environment::segment(cube, settings_of(options)), map.rotate_deg};
+  const environment::SegmentSettings settings{.lights = options.lights,
+                                              .method = options.method == "thesis" ? SegmentMethod::thesis : SegmentMethod::variance,
+                                              .weights = options.weights == "texel" ? SegmentWeights::texel : SegmentWeights::solid_angle};
+  Result result{environment::segment(cube, settings), map.rotate_deg};
   result.irradiance_error = environment::irradiance_error(environment::irradiances(cube), result.segmentation);
   if (!options.picture.empty()) {
     const environment::SegmentPicture picture = environment::segment_picture(map, result.segmentation);

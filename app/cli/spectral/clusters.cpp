@@ -2,25 +2,16 @@
 // `nephroid clusters`: the wavelength clusters of a preset's glass or of a dispersion file.
 #include "spectral/clusters/clusters.h"
 #include "base/counted.h"
-#include "base/error.h"
-#include "base/files.h"
 #include "base/json_output.h"
 #include "cli/dispersion_input.h"
 #include "cli/spectral/wavelength_runs.h"
-#include "cli/verb.h"
 #include "cli/verbs.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "scene/materials.h"
 #include "spectral/describe_settings.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-
-#include <memory>
-#include <optional>
-#include <set>
-#include <vector>
 
 namespace nephroid::cli {
 namespace {
@@ -119,10 +110,7 @@ void print_clusters(const ClusterOptions& options)
   const optics::Spectrum n = optics::sample_n(task.curve, task.outside);
   if (const std::string note = optics::outside_note(task.curve, task.outside); !note.empty()) fmt::print(stderr, "nephroid: {}\n", note);
   const Clustering clustering = spectral::cluster_wavelengths(n, task.threshold_deg, task.method);
-  if (options.json)
-    print_json(clustering);
-  else
-    print_text(task.curve.name, clustering);
+  options.json ? print_json(clustering) : print_text(task.curve.name, clustering);
 }
 
 } // namespace

@@ -11,11 +11,9 @@
 #include "spectral/clusters/clusters.h"
 #include "tracing/omissions.h"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <memory>
 
 namespace nephroid::cli {
 namespace {

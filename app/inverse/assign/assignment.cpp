@@ -10,17 +10,9 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
-#include <span>
 #include <utility>
 
 namespace nephroid::inverse {
-namespace {
-
-/// A sweep that lowers the sum of squares by less than this part of it is the last.
-constexpr double worth_a_sweep = 0.01;
-
-} // namespace
 
 Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
     : layout_(layout), targets_(targets), seed_(seed), weights_(picture_weights(layout, targets)), heights_(layout.facet_count()),
@@ -31,9 +23,8 @@ Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets,
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
     const glm::dvec2 to = (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
     slopes_[i] = nearest_reachable((to - layout.middle(i)) / last, layout.n, layout.sines_on(i), layout.steepest);
-    put(i, 1);
   }
-  if (layout_.free_heights) raise();
+  layout_.free_heights ? raise() : light_all(layout_, slopes_, heights_, light_);
   residual_ = residual();
   begin_sweep();
 }
@@ -42,7 +33,7 @@ void Assignment::relight()
 {
   weights_ = picture_weights(layout_, targets_);
   search_.weigh(weights_);
-  put_all();
+  light_all(layout_, slopes_, heights_, light_);
   residual_ = residual();
   refinement_.reset();
   converged_ = false;
@@ -63,16 +54,10 @@ void Assignment::begin_sweep()
 void Assignment::raise()
 {
   heights_ = heights_of(layout_, slopes_);
-  put_all();
+  light_all(layout_, slopes_, heights_, light_);
 }
 
 void Assignment::put(std::size_t facet, double sign) { add_light(layout_, facet, slopes_[facet], sign, light_, heights_[facet]); }
-
-void Assignment::put_all()
-{
-  for (auto& light : light_) std::fill(light.begin(), light.end(), 0.0);
-  for (std::size_t i = 0; i < slopes_.size(); ++i) put(i, 1);
-}
 
 /// What one facet's Cost_N, thesis (6.1), weighs in the sum: both costs are means, one over the facets, one over all cells.
 double Assignment::smoothing_weight() const
@@ -155,6 +140,7 @@ void Assignment::advance()
   ++sweeps_;
   if (layout_.free_heights) raise();
   const double before = std::exchange(residual_, residual());
+  constexpr double worth_a_sweep = 0.01; // a sweep that lowers the sum of squares by a smaller part of it is the last
   if (residual_ > (1 - worth_a_sweep) * before) {
     converged_ = layout_.smoothing > 0;
     if (!converged_) refinement_.emplace(layout_, targets_, weights_, heights_);

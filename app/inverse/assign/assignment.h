@@ -5,12 +5,6 @@
 #include "inverse/assign/slope_search.h"
 #include "inverse/method.h"
 
-#include <glm/glm.hpp>
-
-#include <cstdint>
-#include <optional>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// Lowers weighted_squares(), and what smoothing adds to it (cost.h). A sweep goes through all facets in a random order, in batches of
@@ -51,7 +45,6 @@ private:
   void begin_sweep();
   void raise();
   void put(std::size_t facet, double sign);
-  void put_all();
   void refine();
   double smoothing_weight() const;
   glm::dvec3 pull_on(std::size_t facet) const;

@@ -6,15 +6,9 @@
 #include "inverse/assign/slope_search.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace nephroid::inverse {
-namespace {
-
-constexpr int facets_a_side = 32;
-
-} // namespace
 
 ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& targets, const std::vector<glm::dvec2>& slopes,
                                const std::vector<double>& heights, const std::vector<std::vector<double>>& light)
@@ -72,12 +66,12 @@ Conflicts ConflictSearch::of_pictures() const
 {
   const std::size_t count = light_.size();
   const double sent = light_sent(layout_, slopes_);
-  Conflicts found{std::vector<double>(count), std::vector<std::vector<double>>(count, std::vector<double>(count))};
+  Conflicts conflicts{std::vector<double>(count), std::vector<std::vector<double>>(count, std::vector<double>(count))};
   for (std::size_t i = 0; i < slopes_.size(); ++i)
-    for (std::size_t j = 0; j < count; ++j) found.misplaced[j] += misplaced(i, j) * facet_power(layout_, i, slopes_[i]) / sent;
-  if (count == 1) return found;
+    for (std::size_t j = 0; j < count; ++j) conflicts.misplaced[j] += misplaced(i, j) * facet_power(layout_, i, slopes_[i]) / sent;
+  if (count == 1) return conflicts;
 
-  const std::vector<std::size_t> facets = some_facets(layout_, facets_a_side);
+  const std::vector<std::size_t> facets = some_facets(layout_, 32);
   std::vector<SlopeSearch> alone; // with that picture only
   std::vector<std::vector<Lack>> lacks;
   for (std::size_t j = 0; j < count; ++j) {
@@ -86,7 +80,7 @@ Conflicts ConflictSearch::of_pictures() const
     alone.emplace_back(layout_, own, heights_);
     lacks.push_back(alone[j].lacks(targets_, light_));
   }
-  std::vector<std::vector<std::vector<double>>> parts(facets.size(), found.between); // all 0 yet
+  std::vector<std::vector<std::vector<double>>> parts(facets.size(), conflicts.between); // all 0 yet
   for_ranges(facets.size(), 16, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
       for (std::size_t j = 0; j < count; ++j) {
@@ -103,8 +97,8 @@ Conflicts ConflictSearch::of_pictures() const
   for (const std::size_t facet : facets) some_sent += facet_power(layout_, facet, slopes_[facet]);
   for (const auto& part : parts)
     for (std::size_t j = 0; j < count; ++j)
-      for (std::size_t k = 0; k < count; ++k) found.between[j][k] += part[j][k] / some_sent;
-  return found;
+      for (std::size_t k = 0; k < count; ++k) conflicts.between[j][k] += part[j][k] / some_sent;
+  return conflicts;
 }
 
 } // namespace nephroid::inverse

@@ -3,11 +3,6 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <glm/glm.hpp>
-
-#include <cstddef>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// Light is misplaced in a picture where more falls than is wanted, or beside the receiver. Every facet in a cell has the same share in

@@ -3,11 +3,7 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <glm/glm.hpp>
-
-#include <cstddef>
 #include <span>
-#include <vector>
 
 namespace nephroid::inverse {
 

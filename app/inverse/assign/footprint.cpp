@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/assign/footprint.h"
 
+#include "base/parallel.h"
 #include "inverse/bending.h"
 
 #include <glm/gtc/matrix_access.hpp>
@@ -20,14 +21,14 @@ std::vector<double> parts(const Beam& beam, int cells, int& first)
   const double end = cells; // far off no int would hold the cell
   first = static_cast<int>(std::clamp(std::floor(beam.middle - reach), 0.0, end));
   const int last = static_cast<int>(std::clamp(std::ceil(beam.middle + reach), static_cast<double>(first), end));
-  std::vector<double> all;
+  std::vector<double> covered;
   double before = part_before(beam, first);
   for (int i = first; i < last; ++i) {
     const double after = part_before(beam, i + 1);
-    all.push_back(after - before);
+    covered.push_back(after - before);
     before = after;
   }
-  return all;
+  return covered;
 }
 
 /// The part of a facet whose light reaches the receivers: its middle and size in parts of the facet.
@@ -100,10 +101,10 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
     return Beam{at[axis], std::abs(map[axis][axis]) * lit.size[axis] * size[axis] / cell[axis],
                 std::sqrt(across * across + blur[axis]) / cell[axis]};
   };
-  Footprint made;
-  made.x = parts(beam(0), layout.cells.x, made.x0);
-  made.y = parts(beam(1), layout.cells.y, made.y0);
-  return made;
+  Footprint print;
+  print.x = parts(beam(0), layout.cells.x, print.x0);
+  print.y = parts(beam(1), layout.cells.y, print.y0);
+  return print;
 }
 
 double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope)
@@ -122,6 +123,19 @@ void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope,
   const double power = sign * facet_power(layout, facet, slope);
   for (std::size_t j = 0; j < light.size(); ++j)
     for_cells(layout, footprint(layout, facet, slope, j, height), [&](std::size_t cell, double part) { light[j][cell] += power * part; });
+}
+
+void light_all(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights,
+               std::vector<std::vector<double>>& light)
+{
+  for_blocks(light.size(), [&](std::size_t j) {
+    std::fill(light[j].begin(), light[j].end(), 0.0);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      const double power = facet_power(layout, i, slopes[i]);
+      for_cells(layout, footprint(layout, i, slopes[i], j, heights[i]),
+                [&](std::size_t cell, double part) { light[j][cell] += power * part; });
+    }
+  });
 }
 
 double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes)

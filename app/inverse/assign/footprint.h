@@ -3,11 +3,6 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <glm/glm.hpp>
-
-#include <cstddef>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// Along one axis, in cells: the beam is a box of `width` that another box of `blur` smears; a trapezoid.
@@ -54,6 +49,10 @@ void for_cells(const Layout& layout, const Footprint& print, const F& f)
 /// Adds the facet's light, `sign` times, to every receiver's: [receiver][cell], in facets that send all of theirs.
 void add_light(const Layout& layout, std::size_t facet, const glm::dvec2& slope, double sign, std::vector<std::vector<double>>& light,
                double height = 0);
+
+/// The light of all facets on every receiver. heights: of their middles.
+void light_all(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights,
+               std::vector<std::vector<double>>& light);
 
 /// Light that all facets send, wherever to.
 double light_sent(const Layout& layout, const std::vector<glm::dvec2>& slopes);

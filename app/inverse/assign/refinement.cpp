@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace nephroid::inverse {
@@ -68,18 +67,6 @@ void Refinement::find_gradient(const std::vector<glm::dvec2>& slopes, const std:
   });
 }
 
-void Refinement::find_light(const std::vector<glm::dvec2>& slopes, std::vector<std::vector<double>>& light) const
-{
-  for_blocks(light.size(), [&](std::size_t j) {
-    std::fill(light[j].begin(), light[j].end(), 0.0);
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
-      const double power = facet_power(layout_, i, slopes[i]);
-      for_cells(layout_, footprint(layout_, i, slopes[i], j, heights_[i]),
-                [&](std::size_t cell, double part) { light[j][cell] += power * part; });
-    }
-  });
-}
-
 /// The new direction, and how the sum changes along it.
 double Refinement::turn()
 {
@@ -106,7 +93,7 @@ void Refinement::advance(std::vector<glm::dvec2>& slopes, std::vector<std::vecto
   for (int i = 0; i < most_tries; ++i) {
     for (std::size_t k = 0; k < slopes.size(); ++k)
       moved[k] = nearest_reachable(slopes[k] + step_ * direction_[k], layout_.n, layout_.sines_on(k), layout_.steepest);
-    find_light(moved, there);
+    light_all(layout_, moved, heights_, there);
     // The parabola through both sums with the slope at the first: its lowest point is the next length.
     const double to = weighted_squares(targets_, weights_, there, slopes.size()), bend = (to - from - step_ * change) / (step_ * step_);
     const double lowest = bend > 0 ? -change / (2 * bend) : 4 * step_;

@@ -4,11 +4,6 @@
 #include "base/state.h"
 #include "inverse/layout.h"
 
-#include <glm/glm.hpp>
-
-#include <cstddef>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// Conjugate gradients (Polak and Ribiere) on weighted_squares(). Sweeps leave each facet at the best place among the others; moving
@@ -27,7 +22,6 @@ public:
 
 private:
   void find_gradient(const std::vector<glm::dvec2>& slopes, const std::vector<std::vector<double>>& light);
-  void find_light(const std::vector<glm::dvec2>& slopes, std::vector<std::vector<double>>& light) const;
   double turn();
 
   const Layout& layout_;

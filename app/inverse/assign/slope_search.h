@@ -3,13 +3,8 @@
 #pragma once
 #include "inverse/layout.h"
 
-#include <glm/glm.hpp>
-
-#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <vector>
 
 namespace nephroid::inverse {
 

@@ -9,7 +9,6 @@
 #include <iterator>
 #include <limits>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -48,30 +47,15 @@ void write_obj(const scene::Mesh& mesh, ByteSink& to)
 /// 80 bytes of title, the number of triangles, then for each its normal, its corners and two empty bytes; little-endian.
 void write_stl(const scene::Mesh& mesh, ByteSink& to)
 {
-  std::string title = "Nephroid: inverse caustics, millimetres";
+  std::string title = mesh_title;
   title.resize(80, ' ');
   write_text(title, to);
   to.value(static_cast<std::uint32_t>(mesh.triangles.size()));
   for (const glm::uvec3& t : mesh.triangles) {
     const glm::dvec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
-    for (const glm::vec3& v :
-         {glm::vec3(glm::normalize(glm::cross(b - a, c - a))), mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]})
-      to.write(std::as_bytes(std::span(&v, 1)));
+    const glm::vec3 numbers[] = {glm::vec3(glm::normalize(glm::cross(b - a, c - a))), glm::vec3(a), glm::vec3(b), glm::vec3(c)};
+    to.write(std::as_bytes(std::span(numbers)));
     to.value(std::uint16_t{0});
-  }
-}
-
-void write_ply(const scene::Mesh& mesh, ByteSink& to)
-{
-  write_text(fmt::format("ply\nformat binary_little_endian 1.0\ncomment Nephroid: inverse caustics, millimetres\n"
-                         "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
-                         "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-                         mesh.positions.size(), mesh.triangles.size()),
-             to);
-  to.write(std::as_bytes(std::span(mesh.positions)));
-  for (const glm::uvec3& t : mesh.triangles) {
-    to.value(std::uint8_t{3});
-    to.write(std::as_bytes(std::span(&t, 1)));
   }
 }
 

@@ -8,13 +8,12 @@
 #include "inverse/layout.h"
 #include "scene/mesh.h"
 
-#include <string>
-
 namespace nephroid::inverse {
+
+inline constexpr const char* mesh_title = "Nephroid: inverse caustics, millimetres";
 
 void write_obj(const scene::Mesh& mesh, ByteSink& to); ///< Wavefront
 void write_stl(const scene::Mesh& mesh, ByteSink& to); ///< binary
-void write_ply(const scene::Mesh& mesh, ByteSink& to); ///< binary, little-endian
 
 /// The figures as a page of Markdown. material: in words, with its index.
 std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material);

@@ -4,7 +4,6 @@
 #include "inverse/bending.h"
 #include "inverse/poisson.h"
 
-#include <Eigen/Core>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include "inverse/layout.h"
 
 #include <span>
-#include <vector>
 
 namespace nephroid::inverse {
 

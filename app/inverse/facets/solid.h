@@ -5,9 +5,6 @@
 #include "inverse/layout.h"
 #include "scene/mesh.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace nephroid::inverse {
 
 enum class Part : std::uint8_t { facet, wall, side, front };

@@ -5,9 +5,6 @@
 #include "inverse/lens/transport.h"
 #include "inverse/method.h"
 
-#include <cstdint>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// For one receiver and light along -z. Steps are those of Transport; the surface is made after each.

@@ -6,8 +6,6 @@
 #include "base/state.h"
 #include "inverse/poisson.h"
 
-#include <glm/glm.hpp>
-
 namespace nephroid::inverse {
 
 /// The back-and-forth method (Jacobs and Leger 2020, "A fast approach to optimal transport"): steps along the gradient of the dual

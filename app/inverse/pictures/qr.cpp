@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/pictures/qr.h"
+// The only file that includes libqrencode.
+#include "inverse/pictures/target.h"
 
 #include <fmt/format.h>
 #include <qrencode.h>

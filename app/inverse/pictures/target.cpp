@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/pictures/target.h"
 
-#include "base/error.h"
 #include "image/image.h"
-#include "inverse/pictures/qr.h"
 
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 
 namespace nephroid::inverse {
@@ -70,27 +67,16 @@ double brightness(const Picture& picture, const glm::dvec2& p, const glm::dvec2&
   using Type = Picture::Type;
   const double r = glm::length(p);
   const glm::dvec2 turned = turned_back(picture, p);
-  switch (picture.type) {
-  case Type::disc:
-    return r < picture.radius ? 1 : 0;
-  case Type::ring:
-    return r < picture.radius && r >= picture.inner ? 1 : 0;
-  case Type::cross:
+  if (picture.type == Type::disc) return r < picture.radius ? 1 : 0;
+  if (picture.type == Type::ring) return r < picture.radius && r >= picture.inner ? 1 : 0;
+  if (picture.type == Type::cross)
     return in_bar(turned, picture.length, picture.width) || in_bar({turned.y, turned.x}, picture.length, picture.width) ? 1 : 0;
-  case Type::bars:
-    return in_bars(picture, turned) ? 1 : 0;
-  case Type::star:
-    return in_star(picture, turned) ? 1 : 0;
-  case Type::gradient: {
-    const double turn = glm::radians(picture.turn_deg);
-    const double reach = half.x * std::abs(std::cos(turn)) + half.y * std::abs(std::sin(turn)); // of the receiver along the gradient
-    return std::clamp((turned.x / reach + 1) / 2, 0.0, 1.0);
-  }
-  case Type::face:
-    return face(turned / picture.radius);
-  default:
-    return 0;
-  }
+  if (picture.type == Type::bars) return in_bars(picture, turned) ? 1 : 0;
+  if (picture.type == Type::star) return in_star(picture, turned) ? 1 : 0;
+  if (picture.type == Type::face) return face(turned / picture.radius);
+  const double turn = glm::radians(picture.turn_deg);
+  const double reach = half.x * std::abs(std::cos(turn)) + half.y * std::abs(std::sin(turn)); // of the receiver along the gradient
+  return std::clamp((turned.x / reach + 1) / 2, 0.0, 1.0);
 }
 
 /// A drawing's edges are as sharp as this many samples along a cell's side.
@@ -153,19 +139,13 @@ Target fit(const Grey& grey, const Layout& layout)
 
 Target brightness_of(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where)
 {
-  switch (picture.type) {
-  case Picture::Type::file: {
-    Grey grey = read_grey(finder.find(picture.file, where));
-    for (double& value : grey.values) value = std::pow(value, picture.tone);
-    return fit(grey, layout);
-  }
-  case Picture::Type::text:
-    return draw_words(picture, layout, where);
-  case Picture::Type::qr:
-    return qr_cells(picture.text, layout.cells, where / "text");
-  default:
+  if (picture.type == Picture::Type::text) return draw_words(picture, layout, where);
+  if (picture.type == Picture::Type::qr) return qr_cells(picture.text, layout.cells, where / "text");
+  if (picture.type != Picture::Type::file)
     return draw(layout, [&, half = half_receiver(layout)](const glm::dvec2& p) { return brightness(picture, p, half); });
-  }
+  Grey grey = read_grey(finder.find(picture.file, where));
+  for (double& value : grey.values) value = std::pow(value, picture.tone);
+  return fit(grey, layout);
 }
 
 } // namespace

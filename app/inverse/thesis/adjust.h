@@ -4,9 +4,6 @@
 #include "inverse/layout.h"
 #include "inverse/thesis/sampler.h"
 
-#include <cstddef>
-#include <vector>
-
 namespace nephroid::inverse {
 
 /// A picture whose sizes grow by `scale` about the receiver's middle and that then moves by `shift` (parts of the receiver, right and

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -19,6 +20,51 @@ constexpr std::size_t numbers_a_picture = 4; // size, right, down, distance
 double sum_of(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 } // namespace
+
+Annealer::Annealer(std::vector<Knob> knobs, const Cooling& cooling, double cost)
+    : knobs_(std::move(knobs)), cooling_(cooling), cost_(cost), lowest_cost_(cost)
+{
+  for (const Knob& knob : knobs_) values_.push_back(knob.start);
+  lowest_ = values_;
+}
+
+double Annealer::temperature() const { return cooling_.temperature * std::pow(cooling_.factor, done_ / cooling_.moves); }
+
+const std::vector<double>& Annealer::propose(std::mt19937_64 random)
+{
+  proposed_ = values_;
+  for (std::size_t i = 0; i < knobs_.size(); ++i) {
+    const Knob& knob = knobs_[i];
+    proposed_[i] = std::clamp(proposed_[i] + knob.step * (2 * uniform(random) - 1), knob.low, knob.high);
+  }
+  chance_ = uniform(random);
+  return proposed_;
+}
+
+bool Annealer::decide(double cost)
+{
+  const double rise = cost - cost_;
+  const bool taken = rise <= 0 || chance_ < std::exp(-rise / temperature()); // at 0: exp(-inf), never
+  ++done_;
+  if (!taken) return false;
+  ++accepted_;
+  values_ = proposed_;
+  cost_ = cost;
+  if (cost >= lowest_cost_) return false;
+  lowest_ = values_;
+  lowest_cost_ = cost;
+  return true;
+}
+
+void Annealer::state(State& state)
+{
+  state.items(values_);
+  state.items(lowest_);
+  state.value(cost_);
+  state.value(lowest_cost_);
+  state.value(done_);
+  state.value(accepted_);
+}
 
 std::int64_t Pipeline::trials_of(const Thesis& settings)
 {
@@ -139,8 +185,7 @@ void Pipeline::keep(Drawn drawn, double cost)
 {
   best_ = std::move(drawn);
   lowest_ = cost;
-  for (auto& light : light_) std::fill(light.begin(), light.end(), 0.0);
-  for (std::size_t i = 0; i < best_.slopes.size(); ++i) add_light(layout_, i, best_.slopes[i], 1, light_);
+  light_all(layout_, best_.slopes, heights(), light_);
 }
 
 void Pipeline::end_trial()

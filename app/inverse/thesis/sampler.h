@@ -6,12 +6,8 @@
 #include "inverse/layout.h"
 #include "inverse/settings.h"
 
-#include <glm/glm.hpp>
-
-#include <cstddef>
 #include <cstdint>
 #include <random>
-#include <vector>
 
 namespace nephroid::inverse {
 

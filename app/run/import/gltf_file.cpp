@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/import/gltf_file.h"
 
-#include "base/error.h"
 #include "base/files.h"
 
 #include <fmt/format.h>
@@ -72,6 +71,13 @@ void split_glb(const std::string& bytes, const std::string& name, std::string& j
   if (json.empty()) throw bad_input(name, "has no chunk of JSON", expected);
 }
 
+const GltfJson empty_object = GltfJson::object();
+
+[[noreturn]] void refuse(const Place& where, const char* wanted)
+{
+  throw bad_input(where, "is of a wrong kind", std::string("expected ") + wanted);
+}
+
 } // namespace
 
 GltfFile read_gltf(const std::filesystem::path& file)
@@ -101,17 +107,6 @@ GltfFile read_gltf(const std::filesystem::path& file)
   }
   return gltf;
 }
-
-namespace {
-
-const GltfJson empty_object = GltfJson::object();
-
-[[noreturn]] void refuse(const Place& where, const char* wanted)
-{
-  throw bad_input(where, "is of a wrong kind", std::string("expected ") + wanted);
-}
-
-} // namespace
 
 GltfValue GltfValue::object(const char* key) const
 {

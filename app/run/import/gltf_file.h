@@ -8,8 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
-#include <string>
 #include <vector>
 
 namespace nephroid::run {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/import/gltf_meshes.h"
 
-#include "base/error.h"
 #include "base/files.h"
 
 #include <fmt/format.h>
@@ -11,9 +10,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <span>
 #include <system_error>
-#include <utility>
 
 namespace nephroid::run {
 namespace fs = std::filesystem;
@@ -101,19 +98,11 @@ private:
 
   static std::size_t component_bytes(const GltfValue& accessor)
   {
-    switch (accessor.count("componentType", 0)) {
-    case 5120:
-    case 5121:
-      return 1;
-    case 5122:
-    case 5123:
-      return 2;
-    case 5125:
-    case 5126:
-      return 4;
-    default:
+    constexpr std::array<std::size_t, 7> bytes{1, 1, 2, 2, 0, 4, 4}; // of 5120 to 5126
+    const std::uint64_t type = accessor.count("componentType", 0);
+    if (type < 5120 || type > 5126 || bytes[type - 5120] == 0)
       throw bad_input(accessor.where() / "componentType", "is no type of glTF", "expected 5120 to 5126");
-    }
+    return bytes[type - 5120];
   }
 
   std::size_t view(std::size_t index)
@@ -192,24 +181,6 @@ scene::Mesh GltfMeshes::read(const GltfValue& primitive) const
   } catch (const Error& error) {
     if (error.place().name != part.string()) throw;
     throw error.at(primitive.where());
-  }
-}
-
-void write_mesh(const scene::Mesh& mesh, ByteSink& to)
-{
-  const bool with_normals = mesh.normals.size() == mesh.positions.size();
-  const std::string head = fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n{}"
-      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
-      mesh.positions.size(), with_normals ? "property float nx\nproperty float ny\nproperty float nz\n" : "", mesh.triangles.size());
-  to.write(std::as_bytes(std::span(head)));
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    to.write(std::as_bytes(std::span(&mesh.positions[i], 1)));
-    if (with_normals) to.write(std::as_bytes(std::span(&mesh.normals[i], 1)));
-  }
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    to.value(std::uint8_t{3});
-    to.write(std::as_bytes(std::span(&triangle, 1)));
   }
 }
 

@@ -2,13 +2,8 @@
 // The triangles of a glTF file's primitives. Each is handed to the mesh reader, a program of its own, as a glTF file that holds this
 // primitive alone: so what is corrupt in it harms nobody, and nobody has to guess which of the reader's meshes is which of the file's.
 #pragma once
-#include "base/bytes.h"
 #include "run/import/gltf_file.h"
 #include "scene/mesh.h"
-
-#include <filesystem>
-#include <string>
-#include <vector>
 
 namespace nephroid::run {
 
@@ -31,8 +26,5 @@ private:
   std::filesystem::path folder_; ///< of what the reader reads; gone with this
   std::vector<GltfJson> buffers_;
 };
-
-/// Binary PLY with normals where the mesh has them.
-void write_mesh(const scene::Mesh& mesh, ByteSink& to);
 
 } // namespace nephroid::run

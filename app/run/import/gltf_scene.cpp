@@ -7,6 +7,9 @@
 #include "scene/materials.h"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,33 +20,13 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double degrees = 57.29577951308232;
-
-/// Of a unit quaternion (x, y, z, w).
-glm::dmat3 rotation_of(std::array<double, 4> q)
-{
-  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (!(length > 0)) return glm::dmat3(1);
-  for (double& part : q) part /= length;
-  const auto [x, y, z, w] = q;
-  // glm's matrices are lists of columns.
-  return {{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
-          {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
-          {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}};
-}
-
 glm::dmat4 local_matrix(const GltfValue& node)
 {
-  if (node.has("matrix")) {
-    const auto m = node.numbers<16>("matrix", {});
-    glm::dmat4 matrix(1);
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 4; ++row) matrix[column][row] = m[4 * static_cast<std::size_t>(column) + static_cast<std::size_t>(row)];
-    return matrix;
-  }
+  if (node.has("matrix")) return glm::make_mat4(node.numbers<16>("matrix", {}).data()); // both list columns
   const auto t = node.numbers<3>("translation", {0, 0, 0}), s = node.numbers<3>("scale", {1, 1, 1});
-  const glm::dmat3 r = rotation_of(node.numbers<4>("rotation", {0, 0, 0, 1}));
-  return {glm::dvec4(r[0] * s[0], 0), glm::dvec4(r[1] * s[1], 0), glm::dvec4(r[2] * s[2], 0), glm::dvec4(t[0], t[1], t[2], 1)};
+  const auto [x, y, z, w] = node.numbers<4>("rotation", {0, 0, 0, 1});
+  const glm::dmat4 turn = glm::mat4_cast(glm::normalize(glm::dquat(w, x, y, z)));
+  return glm::scale(glm::translate(glm::dmat4(1), scene::to_dvec3(t)) * turn, scene::to_dvec3(s));
 }
 
 std::vector<std::size_t> roots_of(const GltfValue& root, std::size_t count)
@@ -82,7 +65,6 @@ preset::Material glass(const GltfValue& material, const std::string& name, std::
 }
 
 constexpr double most_lumens = 683; ///< a watt at 555 nm, by the definition of the candela
-glm::dvec3 to_glm(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }
 
 double sum(const optics::Spectrum& spectrum)
 {
@@ -141,7 +123,7 @@ std::optional<preset::Transform> transform_of(const glm::dmat4& matrix)
     transform.translate[i] = matrix[3][static_cast<int>(i)];
     if (!std::isfinite(transform.translate[i]) || std::abs(transform.translate[i]) > 1e7) return std::nullopt;
   }
-  transform.rotate_deg = {x * degrees, y * degrees, z * degrees};
+  transform.rotate_deg = {glm::degrees(x), glm::degrees(y), glm::degrees(z)};
   return transform;
 }
 
@@ -248,9 +230,9 @@ preset::Light light_of(const GltfValue& value, const glm::dmat4& to_world, const
   const LightColour colour = light_colour(value.numbers<3>("color", {1, 1, 1}));
   const double intensity = std::max(0.0, value.number("intensity", 1));
   light.spectrum = colour.spectrum;
-  light.position = vec3(glm::dvec3(to_world[3]));
+  light.position = scene::to_vec3(glm::dvec3(to_world[3]));
   const glm::dvec3 forward = -glm::dvec3(to_world[2]);
-  light.direction = glm::length(forward) > 0 ? vec3(glm::normalize(forward)) : preset::Vec3{0, 0, -1};
+  light.direction = glm::length(forward) > 0 ? scene::to_vec3(glm::normalize(forward)) : preset::Vec3{0, 0, -1};
   if (type == "point") {
     light.power_w = 4 * pi * intensity * colour.watts_per_lumen; // candela over the whole sphere
   } else if (type == "spot") {
@@ -276,7 +258,7 @@ double luminous_irradiance(const preset::Light& light, const glm::dvec3& at)
 {
   const double seen = lumens_per_watt(scene::make_light_spectrum(light.spectrum, "spectrum")) / most_lumens;
   if (light.type == preset::Light::Type::directional) return light.irradiance_w_m2 * seen;
-  const glm::dvec3 way = at - to_glm(light.position);
+  const glm::dvec3 way = at - scene::to_dvec3(light.position);
   const bool spot = light.type == preset::Light::Type::spot;
   const double solid_angle = spot ? 2 * pi * (1 - std::cos(light.half_angle_deg * pi / 180)) : 4 * pi;
   return light.power_w * seen / (solid_angle * std::max(glm::dot(way, way), 1e-6));

@@ -9,14 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include <array>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::run {
-
-inline preset::Vec3 vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 struct GltfNode {
   GltfValue value;

@@ -2,7 +2,6 @@
 #include "run/import/import.h"
 
 #include "base/counted.h"
-#include "base/error.h"
 #include "base/files.h"
 #include "preset/read.h"
 #include "run/import/gltf_meshes.h"
@@ -17,7 +16,6 @@
 #include <numbers>
 #include <set>
 #include <system_error>
-#include <utility>
 
 namespace nephroid::run {
 namespace fs = std::filesystem;
@@ -43,17 +41,6 @@ std::string unique(const std::string& name, std::set<std::string>& taken)
   for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{} {}", name, n);
   return free;
 }
-
-struct Bounds {
-  glm::dvec3 low{1e300}, high{-1e300};
-  void add(const glm::dvec3& p)
-  {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  glm::dvec3 middle() const { return 0.5 * (low + high); }
-  double size() const { return std::max(glm::length(high - low), 1e-3); }
-};
 
 class Import {
 public:
@@ -84,7 +71,7 @@ public:
     fs::create_directories(folder, error);
     if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
     for (const auto& [name, glass] : glasses_) write_file_whole(folder / name, glass);
-    for (const auto& [name, mesh] : files_) write_file_whole(folder / name, [&mesh = mesh](ByteSink& to) { write_mesh(mesh, to); });
+    for (const auto& [name, mesh] : files_) write_file_whole(folder / name, [&mesh = mesh](ByteSink& to) { scene::write_ply(mesh, to); });
     write_file_whole(preset_file_, text);
     return {preset_file_, made_.scene.objects.size(), files_.size(), made_.scene.lights.size(), notes_};
   }
@@ -94,6 +81,11 @@ private:
   {
     if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) notes_.push_back(std::move(text));
   }
+
+  /// Of everything there is to see.
+  void see(const glm::dvec3& p) { bounds_ = scene::enclosing(bounds_, {p, p}); }
+  glm::dvec3 middle() const { return 0.5 * (bounds_.low + bounds_.high); }
+  double size() const { return std::max(glm::length(bounds_.high - bounds_.low), 1e-3); }
 
   void add_mesh(const GltfNode& node)
   {
@@ -118,7 +110,7 @@ private:
       if (transform) object.transform = *transform;
       if (!files_.at(file).normals.empty()) object.normals = preset::Object::Normals::smooth;
       for (const glm::vec3& v : files_.at(file).positions)
-        bounds_.add(transform ? glm::dvec3(node.to_world * glm::dvec4(glm::dvec3(v), 1)) : glm::dvec3(v));
+        see(transform ? glm::dvec3(node.to_world * glm::dvec4(glm::dvec3(v), 1)) : glm::dvec3(v));
       made_.scene.objects.push_back(std::move(object));
     }
   }
@@ -178,13 +170,13 @@ private:
     const GltfValue lens = camera.object("perspective");
     const double fov = lens.number("yfov", 0.7), aspect = std::clamp(lens.number("aspectRatio", 1), 0.1, 10.0);
     preset::Camera& made = made_.scene.camera;
-    made.fov_deg = std::clamp(fov * 180 / pi, 0.001, 179.9);
+    made.fov_deg = std::clamp(glm::degrees(fov), 0.001, 179.9);
     made.resolution = aspect >= 1 ? std::array{static_cast<int>(std::lround(512 * aspect)), 512}
                                   : std::array{512, static_cast<int>(std::lround(512 / aspect))};
     const glm::dvec3 position(node.to_world[3]), forward = -glm::dvec3(node.to_world[2]), up(node.to_world[1]);
     if (!(glm::length(forward) > 0) || !(glm::length(up) > 0)) throw bad_input(node.value.where(), "the camera has no direction");
-    made.position = vec3(position);
-    made.up = vec3(glm::normalize(up));
+    made.position = scene::to_vec3(position);
+    made.up = scene::to_vec3(glm::normalize(up));
     forward_ = glm::normalize(forward);
   }
 
@@ -201,24 +193,24 @@ private:
   void aim()
   {
     preset::Camera& camera = made_.scene.camera;
-    const glm::dvec3 position(camera.position[0], camera.position[1], camera.position[2]);
-    const double ahead = glm::dot(bounds_.middle() - position, forward_);
-    camera.target = vec3(position + forward_ * (ahead > 1e-3 * bounds_.size() ? ahead : bounds_.size()));
+    const glm::dvec3 position = scene::to_dvec3(camera.position);
+    const double ahead = glm::dot(middle() - position, forward_);
+    camera.target = scene::to_vec3(position + forward_ * (ahead > 1e-3 * size() ? ahead : size()));
   }
 
   void look_at_all()
   {
     note("the file has no camera with perspective: one that sees everything takes its place");
-    made_.scene.camera.target = vec3(bounds_.middle());
-    made_.scene.camera.position = vec3(bounds_.middle() + bounds_.size() * glm::dvec3(0.3, 0.7, 1.2));
+    made_.scene.camera.target = scene::to_vec3(middle());
+    made_.scene.camera.position = scene::to_vec3(middle() + size() * glm::dvec3(0.3, 0.7, 1.2));
   }
 
   void light_all()
   {
     note("the file has no lights: a lamp above everything takes their place");
     preset::Light lamp;
-    lamp.position = vec3(bounds_.middle() + bounds_.size() * glm::dvec3(-0.5, 1, 0.4));
-    lamp.power_w = 10 * bounds_.size() * bounds_.size();
+    lamp.position = scene::to_vec3(middle() + size() * glm::dvec3(-0.5, 1, 0.4));
+    lamp.power_w = 10 * size() * size();
     made_.scene.lights.push_back(lamp);
   }
 
@@ -227,7 +219,7 @@ private:
   {
     if (has_camera_) aim();
     double irradiance = 0;
-    for (const preset::Light& light : made_.scene.lights) irradiance += luminous_irradiance(light, bounds_.middle());
+    for (const preset::Light& light : made_.scene.lights) irradiance += luminous_irradiance(light, middle());
     made_.white = irradiance > 0 ? std::clamp(irradiance / pi, 1e-12, 1e12) : 1;
   }
 
@@ -241,7 +233,7 @@ private:
   std::map<MeshKey, std::string> names_;       ///< of meshes that were read
   std::map<std::size_t, std::string> material_names_;
   std::set<std::string> object_names_, taken_materials_;
-  Bounds bounds_;
+  scene::Bounds bounds_;
   bool has_camera_ = false;
   glm::dvec3 forward_{0, 0, -1};
 };

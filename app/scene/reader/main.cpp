@@ -3,7 +3,6 @@
 // make Assimp crash, loop for ever or ask for all memory: Assimp 5.2's PLY and glTF readers overrun the stack on some.
 // The answer on standard output: why the file is refused (empty: it is not), positions, normals, triangles, and one number, of the
 // mended normals; each as its 64-bit count and then the items, as they lie in memory.
-#include "scene/mesh.h"
 #include "scene/mesh_parts.h"
 
 #include <assimp/Importer.hpp>
@@ -13,18 +12,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <csignal>
-#include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <new>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <sys/resource.h>
 #include <unistd.h>
 
