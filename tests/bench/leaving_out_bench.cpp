@@ -11,13 +11,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <array>
-#include <ctime>
-#include <limits>
-#include <memory>
-#include <vector>
-
 namespace {
 
 using namespace nephroid;

@@ -9,12 +9,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <ctime>
-#include <thread>
-
 namespace {
 
 using namespace nephroid;

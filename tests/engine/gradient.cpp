@@ -3,13 +3,7 @@
 
 #include "base/error.h"
 #include "preset/settings_type.h"
-
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
-#include <random>
-#include <span>
+#include "tests/support/standard.h"
 
 namespace nephroid::gradient {
 

@@ -7,16 +7,11 @@
 #include "scene/scene.h"
 #include "tests/fuzz/harness.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace nephroid::fuzz {
 namespace {
 
 /// A portable float map: W bytes wide and H high by the first two bytes of the input, with one channel or three by the third.
-std::filesystem::path map_of(std::string_view input, int& width, int& height)
+fs::path map_of(std::string_view input, int& width, int& height)
 {
   const auto byte = [&](std::size_t at) { return at < input.size() ? static_cast<unsigned char>(input[at]) : 0; };
   width = 1 + byte(0) % 16;
@@ -42,7 +37,7 @@ std::string pixels(int width, int height, bool grey, float value)
 void read(std::string_view input)
 {
   int width = 0, height = 0;
-  const std::filesystem::path file = map_of(input, width, height);
+  const fs::path file = map_of(input, width, height);
   const FileFinder finder(folder());
   accepts([&] {
     preset::Environment environment;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits. Their cost
 // and its smoothing.
-#include "base/files.h"
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
 #include "inverse/assign/cost.h"
@@ -11,7 +10,6 @@
 #include "tests/inverse/searches.h"
 #include "tests/inverse/sound.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/test.h"
 
 namespace nephroid::assignment_test {
 

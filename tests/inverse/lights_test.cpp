@@ -6,7 +6,7 @@
 #include "inverse/light.h"
 #include "optics/fresnel.h"
 #include "scene/bvh.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::lights_test {
 

@@ -2,8 +2,7 @@
 // Words, QR codes, grey levels and tones as light a cell.
 #include "image/image.h"
 #include "inverse/pictures/target.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace nephroid::pictures_test {
 
@@ -156,7 +155,7 @@ TEST_F(PictureFiles, AreDarkWhereTheyAreTransparent)
 {
   image::write_png_bytes(folder.path() / "cut.png", 2, 1, {255, 255, 255, 0, 255, 255, 255, 255});
   const inverse::Grey grey = inverse::read_grey(folder.path() / "cut.png");
-  EXPECT_THAT(grey.values, testing::ElementsAre(0, 1));
+  EXPECT_THAT(grey.values, ElementsAre(0, 1));
 }
 
 TEST_F(PictureFiles, AreRefusedWhereTheyAreHuge)

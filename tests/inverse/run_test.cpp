@@ -61,10 +61,10 @@ TEST_F(InverseRun, CastsTheShapes)
   for (const char* name : {"width_mm", "cost_all", "rel_l2", "missed", "believed_cost"}) EXPECT_TRUE(receivers[2].contains(name)) << name;
   const json light = all.at("light");
   EXPECT_NEAR(light.at("sent").get<double>() + light.at("reflected").get<double>() + light.at("lost").get<double>(), 1, 1e-9);
-  EXPECT_THAT(bytes("out/cost.csv"), testing::StartsWith("sweep,seconds,cost,cost_all,rel_l2,missed\n0,"));
+  EXPECT_THAT(bytes("out/cost.csv"), StartsWith("sweep,seconds,cost,cost_all,rel_l2,missed\n0,"));
   for (const char* file : {"receiver_3.exr", "target_1.png", "difference_2.png", "object.obj", "object.stl", "object.ply", "facets.json",
                            "heights.exr", "heights.png", "workshop.md"})
-    EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
+    EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
   const nephroid::image::Image receiver = nephroid::image::read_image(folder / "out/receiver_1.exr");
   EXPECT_EQ(receiver.width, 32);
   const double triangles = all.at("object").at("triangles").get<double>();
@@ -82,21 +82,21 @@ TEST_F(InverseRun, ShowsWhatAScreenSeesThatMoves)
   EXPECT_EQ(picture("frame_0005"), picture("receiver_2"));
   EXPECT_EQ(picture("frame_0009"), picture("receiver_3"));
   EXPECT_NE(picture("frame_0004"), picture("frame_0005"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "out/frame_0010.exr"));
+  EXPECT_FALSE(fs::exists(folder / "out/frame_0010.exr"));
 }
 
 // A person would mill the object of the run before.
 TEST_F(InverseRun, LeavesNothingOfTheRunBefore)
 {
   ASSERT_EQ(run_to("out", {"--passes", "1", "--set", "inverse.frames=1"}).exit_code, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder / "out/receiver_3.png"));
+  EXPECT_TRUE(fs::exists(folder / "out/receiver_3.png"));
   const auto files = of("out/run.json").at("files").get<std::vector<std::string>>();
-  EXPECT_THAT(files, testing::IsSupersetOf({"object.stl", "workshop.md", "frame_0002.exr", "frames.csv", "image.png"}));
-  for (const std::string& file : files) EXPECT_TRUE(std::filesystem::exists(folder / "out" / file)) << file;
+  EXPECT_THAT(files, IsSupersetOf({"object.stl", "workshop.md", "frame_0002.exr", "frames.csv", "image.png"}));
+  for (const std::string& file : files) EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
   const std::string one = R"(inverse.receivers=[{"distance_mm": 100, "picture": {"type": "disc"}}])";
   ASSERT_EQ(run_to("out", {"--passes", "1", "--set", one, "--set", R"(inverse.light={"type": "point"})"}).exit_code, 0);
   for (const char* file : {"receiver_3.png", "target_2.exr", "frame_0002.exr", "frames.csv", "view.json"})
-    EXPECT_FALSE(std::filesystem::exists(folder / "out" / file)) << file;
+    EXPECT_FALSE(fs::exists(folder / "out" / file)) << file;
 }
 
 TEST_F(InverseRun, GoesOnWithTheSameBits)
@@ -293,7 +293,7 @@ TEST_F(GlassView, ShowsThePicturesAsAPersonSeesThem)
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   ended = run({"run", "out/view.json", "-o", "view", "--passes", "2"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_THAT(ended.err, testing::Not(testing::HasSubstr("hole"))) << "the glass is closed";
+  EXPECT_THAT(ended.err, Not(HasSubstr("hole"))) << "the glass is closed";
   const nephroid::preset::Preset view = nephroid::preset::read_preset((folder / "out/view.json").string());
   const nephroid::image::Image picture = nephroid::image::read_image(folder / "view/image.exr");
   const auto at = [&](std::size_t receiver, double x, double y) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thesis' pipeline: draws from the joint probability, what is done to pictures, annealing; and as a whole: what its stages gain, that
 // it ends, and that it goes on with the same bits.
-#include "base/files.h"
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/adjust.h"
 #include "inverse/thesis/annealer.h"
@@ -9,7 +8,6 @@
 #include "inverse/thesis/sampler.h"
 #include "inverse/uniform.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/test.h"
 
 namespace nephroid::thesis_test {
 
@@ -111,7 +109,7 @@ TEST_F(ThesisPipeline, CountsFacetsWithoutADirection)
   EXPECT_EQ(job::scalar(s, "thesis", "dark_facets"), 1024);
   EXPECT_EQ(job::scalar(s, "thesis", "cost_correction"), 1);
   EXPECT_EQ(job::scalar(s, "thesis", "missing_cells_1"), 1);
-  EXPECT_THAT(s.warnings.at(0), testing::HasSubstr("1024 facets can send light nowhere where all pictures are lit"));
+  EXPECT_THAT(s.warnings.at(0), HasSubstr("1024 facets can send light nowhere where all pictures are lit"));
   EXPECT_EQ(pipeline.slopes()[77], glm::dvec2(0));
   EXPECT_EQ(pipeline.steps(), 1 + settings.patience); // rounds without a gain
 }

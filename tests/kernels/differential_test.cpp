@@ -4,7 +4,6 @@
 #include "tests/support/differential_reference.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tracing/world.h"
 
 namespace nephroid::differential_test {

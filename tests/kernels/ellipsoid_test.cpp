@@ -6,7 +6,6 @@
 #include "scene/bvh.h"
 #include "tests/support/ellipsoids.h"
 #include "tests/support/meshes.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 #include <glm/gtc/matrix_transform.hpp>

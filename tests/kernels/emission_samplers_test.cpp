@@ -2,7 +2,6 @@
 // kernels/tracing/emission.h, first in extreme places: a far and small target, and a light inside of one.
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 #include <glm/glm.hpp>

@@ -6,7 +6,6 @@
 #include "tests/support/reference_photons.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 namespace nephroid::photons_test {

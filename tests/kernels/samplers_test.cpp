@@ -4,7 +4,6 @@
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 namespace nephroid::samplers_test {

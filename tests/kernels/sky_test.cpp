@@ -3,7 +3,6 @@
 // that is seen there. The truth is the map's definition (scene/environment.h), written here anew in double precision.
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 #include "tracing/scene_tables.h"
 

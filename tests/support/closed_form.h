@@ -7,10 +7,7 @@
 #include "scene/scene.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tracing/targets.h"
-
-#include <cstdio>
 
 namespace nephroid::test {
 
@@ -88,7 +85,7 @@ inline std::vector<double> watts(const job::Snapshot& snapshot, const std::strin
 }
 
 /// A tabulated dispersion file of one n and one k at all wavelengths.
-inline std::string write_constant_nk(const std::filesystem::path& file, double n, double k)
+inline std::string write_constant_nk(const fs::path& file, double n, double k)
 {
   std::ofstream(file) << "DATA:\n  - type: tabulated nk\n    data: |\n        0.3 " << n << " " << k << "\n        0.9 " << n << " " << k
                       << "\n";

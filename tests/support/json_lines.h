@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a verb prints with --json where it prints an object a line.
 #pragma once
-#include <nlohmann/json.hpp>
+#include "tests/support/test.h"
 
-#include <sstream>
-#include <string>
-#include <vector>
+#include <nlohmann/json.hpp>
 
 namespace nephroid::test {
 

@@ -5,11 +5,8 @@
 #include "preset/preset.h"
 #include "spectral/settings.h"
 #include "tests/support/presets.h"
+#include "tests/support/standard.h"
 #include "tracing/scene_tables.h"
-
-#include <ostream>
-#include <string>
-#include <vector>
 
 namespace nephroid::test {
 

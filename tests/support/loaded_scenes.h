@@ -4,7 +4,6 @@
 #include "preset/preset.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "tests/support/errors.h"
 #include "tests/support/test.h"
 
 namespace nephroid::test {

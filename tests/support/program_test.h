@@ -2,17 +2,15 @@
 // A test that runs the program in an empty folder, and what every refusal of it has in common.
 #pragma once
 #include "tests/support/child.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test.h"
 
 namespace nephroid::test {
 
 class ProgramTest : public testing::Test {
 protected:
-  ProgramTest() { std::filesystem::create_directory(folder); }
+  ProgramTest() { fs::create_directory(folder); }
 
   TemporaryFolder scratch;
-  std::filesystem::path folder = scratch.path() / "here", logs = scratch.path();
+  fs::path folder = scratch.path() / "here", logs = scratch.path();
 
   Ended run(const std::vector<std::string>& arguments, const Environment& environment = {}) const
   {
@@ -31,7 +29,7 @@ struct Wrong {
 /// One line on standard error, nothing on standard output.
 inline void expect_one_line(const Ended& ended)
 {
-  EXPECT_THAT(ended.err, testing::StartsWith("nephroid: "));
+  EXPECT_THAT(ended.err, StartsWith("nephroid: "));
   EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
   EXPECT_EQ(ended.out, "");
 }
@@ -44,7 +42,7 @@ inline void expect_refused(const Ended& ended, const Wrong& wrong)
   SCOPED_TRACE(line);
   EXPECT_EQ(ended.exit_code, wrong.exit_code) << ended.err;
   expect_one_line(ended);
-  EXPECT_THAT(ended.err, testing::HasSubstr(wrong.says));
+  EXPECT_THAT(ended.err, HasSubstr(wrong.says));
 }
 
 } // namespace nephroid::test

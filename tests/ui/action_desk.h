@@ -5,9 +5,6 @@
 #include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <functional>
-#include <string>
-
 namespace nephroid::test {
 
 class Desk : public HeadlessWindow<SceneRuns> {

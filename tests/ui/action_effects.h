@@ -5,7 +5,6 @@
 #include "base/bytes.h"
 #include "engine/engine.h"
 #include "preset/read.h"
-#include "tests/support/test.h"
 #include "ui/shell/panels.h"
 
 #include <imgui_internal.h>

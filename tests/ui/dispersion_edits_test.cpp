@@ -5,8 +5,6 @@
 #include "optics/dispersion.h"
 #include "preset/read.h"
 #include "spectral/clusters/clusters.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
 #include "ui/spectral/dispersion/model.h"
 #include "ui/spectral/dispersion/panel.h"
 #include "ui/state/selection.h"
@@ -151,7 +149,7 @@ TEST_F(DispersionFilesTest, AFileThatCannotBeLoadedIsAMessage)
     frames(2);
     ASSERT_FALSE(workbench.messages().empty()) << bad;
     EXPECT_TRUE(workbench.messages().back().error);
-    EXPECT_THAT(last_message(workbench), HasSubstr(std::filesystem::path(bad).filename().string()));
+    EXPECT_THAT(last_message(workbench), HasSubstr(fs::path(bad).filename().string()));
     EXPECT_EQ(points(), five);
     EXPECT_FALSE(workbench.edits()->modified());
   }

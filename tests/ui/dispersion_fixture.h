@@ -6,8 +6,6 @@
 #include "spectral/clusters/clusters.h"
 #include "window_fixture.h"
 
-#include <map>
-
 namespace nephroid::test {
 
 using spectral::ClusterMethod;

@@ -5,7 +5,6 @@
 #include "image/image.h"
 #include "measure/history_file.h"
 #include "measure/run_curves.h"
-#include "tests/support/errors.h"
 #include "ui/error/lines.h"
 #include "window_fixture.h"
 
@@ -174,7 +173,7 @@ TEST(ErrorLines, ManyRowsAreThinnedButKeepTheirExtremes)
   EXPECT_EQ(line.curve.seconds.size(), 10000u);
   EXPECT_LE(line.drawn.seconds.size(), 4u * 501);
   EXPECT_TRUE(std::is_sorted(line.drawn.seconds.begin(), line.drawn.seconds.end()));
-  EXPECT_THAT(line.drawn.errors, ::testing::IsSupersetOf({7.0, 1e-9}));
+  EXPECT_THAT(line.drawn.errors, IsSupersetOf({7.0, 1e-9}));
   EXPECT_EQ(line.drawn.seconds.back(), line.curve.seconds.back());
 }
 
@@ -302,7 +301,7 @@ TEST(PinnedRuns, TheNoiseFloorOfARunsFolderIsRead)
 TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
 {
   test::TemporaryFolder folder;
-  const auto refusal = [](const std::filesystem::path& path) { return refusal_of([&] { read_pin(path); }); };
+  const auto refusal = [](const fs::path& path) { return refusal_of([&] { read_pin(path); }); };
   EXPECT_THAT(refusal(folder.path()), HasSubstr("history.csv"));
   EXPECT_THAT(refusal(folder.path() / "none"), HasSubstr("none: there is no such run; expected the folder of a run"));
   EXPECT_THAT(refusal(folder.write("a.png", "no picture")), HasSubstr("a.png: is no run's history; expected the folder of a run"));

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A job without a device for tests of the window: its picture is one colour that tells which camera it was made for.
 #pragma once
-#include "base/error.h"
-#include "base/files.h"
 #include "engine/engine.h"
 #include "job/job.h"
 #include "measure/reference.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "spectral/energy.h"
-#include "tests/support/eventually.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 #include "ui/state/workbench.h"
 
@@ -149,7 +145,7 @@ inline std::string only_message(const ui::Workbench& workbench)
 }
 
 /// The workbench on fake jobs and the program's real worker thread, without a window.
-class WorkbenchFixture : public ::testing::Test {
+class WorkbenchFixture : public testing::Test {
 protected:
   FakeRuns runs;
   TemporaryFolder folder;

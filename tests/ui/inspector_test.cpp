@@ -2,8 +2,6 @@
 // The panel Inspector: pixels and rectangles taken by the mouse and by keys, what it says of them, and what it copies. Statistics of
 // rectangles against closed forms.
 #include "layered_runs.h"
-#include "tests/support/eventually.h"
-#include "tests/support/test.h"
 #include "ui/inspector/panel.h"
 #include "ui/inspector/pixel.h"
 #include "ui/inspector/region.h"
@@ -302,7 +300,7 @@ TEST(RegionHistogram, CountsEveryPixelAboveZeroOnce)
   EXPECT_NEAR(h.first, -2, 0.11);
   EXPECT_NEAR(h.last, 2, 0.11);
   // 2.5 pixels a tenth of a decade.
-  EXPECT_THAT(std::vector(h.counts[0].begin() + 1, h.counts[0].end() - 1), Each(testing::AllOf(testing::Ge(2), testing::Le(3))));
+  EXPECT_THAT(std::vector(h.counts[0].begin() + 1, h.counts[0].end() - 1), Each(AllOf(Ge(2), Le(3))));
   const Histogram none = region_statistics({picture_of(1, 1, {0}), {}, "", {{0, 0}, {1, 1}}, 1}).histogram;
   EXPECT_THAT(none.counts[0], Each(0));
 }

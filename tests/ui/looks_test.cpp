@@ -22,7 +22,7 @@ protected:
   void click_on(const std::string& widget) { click_in(view(), widget, 2); }
   image::Image saved(const std::string& name)
   {
-    const std::filesystem::path file = folder.path() / name;
+    const fs::path file = folder.path() / name;
     workbench.apply({command::SavePicture{file}});
     EXPECT_TRUE(until_files_are_done());
     return image::read_image(file);
@@ -187,7 +187,7 @@ TEST_F(LooksTest, ALayerThatThePictureDoesNotHaveIsSaid)
   EXPECT_THAT(view().shown().hint, HasSubstr("has no layer \"indirect\", only direct, caustic"));
   workbench.apply({command::SavePicture{folder.path() / "none.png"}});
   ASSERT_TRUE(until_files_are_done());
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.png"));
+  EXPECT_FALSE(fs::exists(folder.path() / "none.png"));
   EXPECT_THAT(last_message(workbench), HasSubstr("nothing to save"));
   press(ImGuiKey_L);
   EXPECT_EQ(layer(), "direct");

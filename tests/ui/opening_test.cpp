@@ -3,7 +3,6 @@
 // pictures and meshes that are dropped on it, and that nothing does of what is none.
 #include "fake_job.h"
 #include "inverse/settings.h"
-#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "window_fixture.h"
 
@@ -116,7 +115,7 @@ TEST_F(OpeningTest, AMapBecomesTheEnvironment)
   const std::string map = folder.write("hall.hdr", "read by the run"), other = folder.write("sky.EXR", "");
   workbench.apply({command::Open{map}});
   ASSERT_EQ(workbench.messages().size(), 1u) << "no preset is open";
-  EXPECT_THAT(workbench.messages()[0].line, ::testing::HasSubstr("once a preset is open"));
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("once a preset is open"));
   open_and_edit();
   workbench.apply({command::Open{map}});
   ASSERT_TRUE(workbench.preset()->scene.environment);
@@ -145,7 +144,7 @@ TEST_F(OpeningTest, AMapThatThePresetCannotHaveIsRefused)
   ASSERT_TRUE(workbench.open(folder.write("inverse.json", R"({"engine": "inverse", "inverse": {"receivers": [
     {"distance_mm": 100, "picture": {"type": "disc", "radius": 0.3}}]}})")));
   workbench.apply({command::Open{folder.write("hall.hdr", "")}});
-  EXPECT_THAT(only_message(workbench), ::testing::HasSubstr("environment"));
+  EXPECT_THAT(only_message(workbench), HasSubstr("environment"));
   EXPECT_TRUE(workbench.messages()[0].error);
   EXPECT_FALSE(workbench.edits()->modified());
 }
@@ -212,7 +211,7 @@ TEST_F(DroppedPicture, ThatIsNotThereChangesNothing)
 {
   ASSERT_TRUE(workbench.open("inverse/shapes"));
   workbench.apply({command::Open{(folder.path() / "gone.png").string()}});
-  EXPECT_THAT(last_message(workbench), ::testing::HasSubstr("there is no such picture"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("there is no such picture"));
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
@@ -220,8 +219,8 @@ TEST_F(DroppedPicture, SaysWhatToDoWithItElsewhere)
 {
   ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
   workbench.apply({command::Open{picture}});
-  EXPECT_THAT(last_message(workbench), ::testing::HasSubstr("is a picture"));
-  EXPECT_THAT(last_message(workbench), ::testing::HasSubstr("engine inverse"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("is a picture"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("engine inverse"));
   EXPECT_FALSE(workbench.edits()->modified());
 }
 

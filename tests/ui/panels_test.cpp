@@ -227,7 +227,7 @@ TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
   open();
   press(ImGuiKey_S, ImGuiMod_Ctrl);
   EXPECT_EQ(workbench.question(), Question::none) << "the preset has a file of its own";
-  EXPECT_THAT(only_message(workbench), ::testing::StartsWith("saved "));
+  EXPECT_THAT(only_message(workbench), StartsWith("saved "));
   workbench.apply({command::Ask{Question::save_picture}});
   frames(2);
   press(ImGuiKey_E);

@@ -6,8 +6,6 @@
 #include "ui/parameters/panel.h"
 #include "window_fixture.h"
 
-#include <string>
-
 namespace nephroid::test {
 
 using Json = preset::Json;

@@ -53,7 +53,7 @@ TEST_F(PresetsPanelTest, ListsEveryShippedPresetByName)
   EXPECT_EQ(entry("first-light").stop, "28 passes");
   std::vector<std::string> needs;
   for (const Need& need : entry("first-light").needs) needs.push_back(need.name);
-  EXPECT_THAT(needs, testing::UnorderedElementsAre("materials/N-SF66.yml", "bunny.obj"));
+  EXPECT_THAT(needs, UnorderedElementsAre("materials/N-SF66.yml", "bunny.obj"));
 }
 
 TEST_F(PresetsPanelTest, WordsAndTheEngineNarrowTheList)
@@ -131,7 +131,7 @@ TEST_F(PresetsPanelTest, WhatWasOpenedIsListedInTheNextSessionTheNewestFirst)
   rest();
   EXPECT_THAT(panel().listed(), Contains("other.json"));
   click("newest");
-  EXPECT_THAT(panel().listed().at(0), testing::AnyOf("other.json", "test.json"));
+  EXPECT_THAT(panel().listed().at(0), AnyOf("other.json", "test.json"));
   workbench.finish_files();
   const RecentFiles next(list_file, {});
   ASSERT_THAT(next.all(), SizeIs(2));
@@ -256,7 +256,7 @@ protected:
   }
 };
 
-class StartPageCard : public StartPageTest, public ::testing::WithParamInterface<std::array<const char*, 3>> {};
+class StartPageCard : public StartPageTest, public testing::WithParamInterface<std::array<const char*, 3>> {};
 
 TEST_P(StartPageCard, OpensItsExample)
 {
@@ -269,9 +269,9 @@ TEST_P(StartPageCard, OpensItsExample)
 }
 
 INSTANTIATE_TEST_SUITE_P(All, StartPageCard,
-                         ::testing::Values(std::array{"first-light", "first-light", "spectral"},
-                                           std::array{"environment/ball", "ball", "environment"},
-                                           std::array{"inverse/shapes", "shapes", "inverse"}));
+                         testing::Values(std::array{"first-light", "first-light", "spectral"},
+                                         std::array{"environment/ball", "ball", "environment"},
+                                         std::array{"inverse/shapes", "shapes", "inverse"}));
 
 TEST_F(StartPageTest, EachButtonDoesWhatItSays)
 {

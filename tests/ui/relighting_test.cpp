@@ -122,7 +122,7 @@ TEST_F(RelightingTest, TheReferenceIsOfTheOldLight)
 {
   open(100000);
   workbench.apply({command::CompareWith{}});
-  EXPECT_THAT(workbench.comparing().why_not(), ::testing::Not(HasSubstr("no reference")));
+  EXPECT_THAT(workbench.comparing().why_not(), Not(HasSubstr("no reference")));
   edit_power(20);
   ASSERT_TRUE(shows(20));
   EXPECT_NE(workbench.comparing().why_not(), "");

@@ -198,11 +198,11 @@ TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing)
   EXPECT_FALSE(is_there(folder.path() / "page-runs"));
   // A page that cannot be written where a folder is takes what was written beside it along, and nothing that was there.
   const auto of_others = folder.path() / "page-runs";
-  std::filesystem::create_directory_symlink("a disk that is not there now", of_others);
-  std::filesystem::create_directories(folder.path() / "page.html");
+  fs::create_directory_symlink("a disk that is not there now", of_others);
+  fs::create_directories(folder.path() / "page.html");
   EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("page.html"));
   EXPECT_TRUE(workbench.messages().back().error);
-  EXPECT_TRUE(std::filesystem::is_symlink(of_others));
+  EXPECT_TRUE(fs::is_symlink(of_others));
   EXPECT_FALSE(is_there(folder.path() / "page-runs-2"));
 }
 
@@ -223,7 +223,7 @@ TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs)
   EXPECT_FALSE(is_there(folder.path() / "page-runs" / "01-before"));
   EXPECT_TRUE(is_there(folder.path() / "page-runs" / "02-Test--edit"));
   // The folder is gone: what was read of it is written.
-  std::filesystem::remove_all(folder.path() / "before");
+  fs::remove_all(folder.path() / "before");
   EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("over 2 runs"));
   EXPECT_TRUE(is_there(folder.path() / "page-runs-2" / "01-before" / "image.exr"));
 }
@@ -257,7 +257,7 @@ TEST_F(RunsPanelTest, ADamagedFolderIsSaidOnce)
 {
   open();
   const auto bad = folder.path() / "bad";
-  std::filesystem::create_directories(bad);
+  fs::create_directories(bad);
   write_file_whole(bad / "history.csv", measure::to_csv(*falling_history(3)));
   write_file_whole(bad / "run.json", "{\"engine\": 7, \"units\": [], \"work_seconds\": \"long\", \"finished\": 1}");
   write_file_whole(bad / "preset.json", "{\"engine\": \"none of ours\"}");

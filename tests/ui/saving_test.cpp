@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What leaves the window and what comes in from nothing: the command line on the clipboard, saving with the parent kept, new scenes, a glTF
 // file that is dropped.
-#include "base/files.h"
 #include "engine/engine.h"
 #include "preset/differences.h"
 #include "preset/read.h"

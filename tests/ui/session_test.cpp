@@ -7,7 +7,7 @@ namespace nephroid::ui::session_test {
 
 /// A window without a display: a workbench with its keeper.
 struct Window {
-  explicit Window(const std::filesystem::path& state) : keeper(state) {}
+  explicit Window(const fs::path& state) : keeper(state) {}
   void finish()
   {
     ASSERT_TRUE(eventually([&] { workbench.update(); }, [&] { return workbench.run().status().state == job::State::finished; }));
@@ -35,10 +35,10 @@ struct Window {
   SessionKeeper::Clock::time_point later = SessionKeeper::Clock::now(); ///< of the keeper, which writes at most once a second
 };
 
-class SessionTest : public ::testing::Test {
+class SessionTest : public testing::Test {
 protected:
   TemporaryFolder folder;
-  std::filesystem::path state() const { return folder.path() / "state"; }
+  fs::path state() const { return folder.path() / "state"; }
   std::string preset_file() const { return folder.write("test.json", test::preset_text); }
   std::string text_of(const Workbench& workbench) const
   {
@@ -142,7 +142,7 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
   }
   EXPECT_FALSE(window.workbench.edits()->modified()) << "back at what the file has";
   window.settle();
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(state() / "sessions"), {}), 1) << "the old one is not needed any more";
+  EXPECT_EQ(std::distance(fs::directory_iterator(state() / "sessions"), {}), 1) << "the old one is not needed any more";
 }
 
 TEST_F(SessionTest, PinnedRunsComeBackWithTheirPictures)
@@ -257,8 +257,8 @@ TEST_F(SessionTest, WhatIsCutIsRefusedInOneLine)
       parse_session(whole.substr(0, length), "cut.json");
       FAIL() << "at " << length;
     } catch (const Error& error) {
-      EXPECT_THAT(error.line(), ::testing::StartsWith("cut.json: "));
-      EXPECT_THAT(error.line(), ::testing::Not(::testing::HasSubstr("\n")));
+      EXPECT_THAT(error.line(), StartsWith("cut.json: "));
+      EXPECT_THAT(error.line(), Not(HasSubstr("\n")));
     }
   }
 }
@@ -281,12 +281,12 @@ TEST_F(SessionTest, WrongValuesAreRefused)
 
 TEST_F(SessionTest, AnUnreadableSessionIsKeptUnderAnotherName)
 {
-  std::filesystem::path session;
+  fs::path session;
   {
     Window window(state());
     ASSERT_TRUE(window.workbench.open(preset_file()));
     window.settle();
-    session = std::filesystem::directory_iterator(state() / "sessions")->path();
+    session = fs::directory_iterator(state() / "sessions")->path();
   }
   write_file_whole(session / "session.json", "{\"version\": 1, \"closed\": false, ");
   Window window(state());
@@ -295,7 +295,7 @@ TEST_F(SessionTest, AnUnreadableSessionIsKeptUnderAnotherName)
   EXPECT_EQ(window.workbench.preset(), nullptr);
   ASSERT_EQ(window.workbench.messages().size(), 1u);
   EXPECT_TRUE(window.workbench.messages()[0].error);
-  EXPECT_TRUE(std::filesystem::exists(session.string() + ".unreadable/session.json"));
+  EXPECT_TRUE(fs::exists(session.string() + ".unreadable/session.json"));
   EXPECT_FALSE(window.keeper.has_earlier());
 }
 
@@ -303,14 +303,14 @@ TEST_F(SessionTest, WhereNothingCanBeKeptItIsSaidOnceAndTheWindowGoesOn)
 {
   Window window(state());
   ASSERT_TRUE(window.workbench.open(preset_file()));
-  const std::filesystem::path own = std::filesystem::directory_iterator(state() / "sessions")->path();
-  std::filesystem::remove_all(own);
+  const fs::path own = fs::directory_iterator(state() / "sessions")->path();
+  fs::remove_all(own);
   write_file_whole(own, "a file where the folder was");
   window.settle();
   window.edit([](preset::Preset& preset) { preset.seed = 9; });
   window.settle();
   ASSERT_EQ(window.workbench.messages().size(), 1u);
-  EXPECT_THAT(window.workbench.messages()[0].line, ::testing::HasSubstr("save the preset elsewhere"));
+  EXPECT_THAT(window.workbench.messages()[0].line, HasSubstr("save the preset elsewhere"));
   EXPECT_EQ(window.workbench.preset()->seed, 9u);
 }
 

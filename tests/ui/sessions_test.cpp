@@ -205,7 +205,7 @@ TEST_F(InverseSession, FromTheStartPageToASavedMesh)
   EXPECT_EQ(after[1], first[1]);
   EXPECT_GT(after[2].distance_mm, first[2].distance_mm + 5);
 
-  const std::filesystem::path made = session.saved() / "inverse-object";
+  const fs::path made = session.saved() / "inverse-object";
   for (const char* file : {"object.obj", "object.stl", "object.ply"}) {
     const scene::MeshReport report = scene::inspect(scene::load_mesh(made / file));
     EXPECT_TRUE(report.closed()) << file;

@@ -227,7 +227,7 @@ TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
   workbench.apply({command::Edit{"no glass", edited}});
   frames(3);
   EXPECT_NE(spectra().why_no_u, "");
-  for (const Message& message : workbench.messages()) EXPECT_THAT(message.line, ::testing::Not(HasSubstr(SpectraPanel::title)));
+  for (const Message& message : workbench.messages()) EXPECT_THAT(message.line, Not(HasSubstr(SpectraPanel::title)));
 }
 
 TEST_F(SpectraPanelTest, NothingThatMattersIsASentence)

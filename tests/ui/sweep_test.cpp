@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sweep of a preset in the window: opened, edited, saved, undone; its runs in a queue, each pinned; the report over them.
-#include "tests/support/errors.h"
 #include "ui/runs/panel.h"
 #include "ui/runs/sweep_section.h"
 #include "ui/state/run_record.h"
@@ -105,9 +104,9 @@ TEST_F(SweepTest, FieldsAreThoseOfThePresetThatHoldANumber)
   open();
   std::vector<std::string> keys;
   for (const NumberField& field : number_fields(*workbench.preset())) keys.push_back(field.key);
-  EXPECT_THAT(keys, ::testing::IsSupersetOf({"seed", "white", "scene.camera.fov_deg", "scene.lights.0.power_w", "spectral.threshold_deg",
-                                             "stop.passes", "stop.seconds", "scene.materials.wall.reflectance.value"}));
-  EXPECT_THAT(keys, ::testing::Not(::testing::Contains(HasSubstr("inverse"))));
+  EXPECT_THAT(keys, IsSupersetOf({"seed", "white", "scene.camera.fov_deg", "scene.lights.0.power_w", "spectral.threshold_deg",
+                                  "stop.passes", "stop.seconds", "scene.materials.wall.reflectance.value"}));
+  EXPECT_THAT(keys, Not(Contains(HasSubstr("inverse"))));
 }
 
 TEST_F(SweepTest, APresetWithASweepIsOpenedAndSavedWithIt)
@@ -154,7 +153,7 @@ TEST_F(SweepTest, AChildKeepsItsParentAndItsSweep)
   EXPECT_THAT(read_file(child), HasSubstr("\"parent\""));
   // What cannot be said over the parent's sweep is said without it.
   EXPECT_EQ(save({{"white", {"1.0", "2.0"}}}), 2u);
-  EXPECT_THAT(read_file(child), ::testing::Not(HasSubstr("\"parent\"")));
+  EXPECT_THAT(read_file(child), Not(HasSubstr("\"parent\"")));
 }
 
 TEST_F(SweepTest, ASweepThatCannotBeIsRefusedWithThePreset)

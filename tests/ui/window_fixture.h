@@ -13,9 +13,6 @@
 
 #include <imgui.h>
 
-#include <ctime>
-#include <variant>
-
 namespace nephroid::test {
 
 /// Processor time of this thread: other work of the machine does not count.
@@ -259,7 +256,7 @@ private:
 };
 
 template <class Runs>
-class WindowFixtureOf : public ::testing::Test, public HeadlessWindow<Runs> {
+class WindowFixtureOf : public testing::Test, public HeadlessWindow<Runs> {
 protected:
   using HeadlessWindow<Runs>::HeadlessWindow;
 };

@@ -106,7 +106,7 @@ TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.err, HasSubstr("there is no preset"));
   EXPECT_EQ(screen().width, 1280);
-  std::filesystem::remove(folder.path() / "screen.png");
+  fs::remove(folder.path() / "screen.png");
   const test::Ended no_device = with_screenshot({folder.write("test.json", test::preset_text), "--device", "abacus"});
   EXPECT_EQ(no_device.exit_code, 3);
   EXPECT_THAT(no_device.err, HasSubstr("abacus"));

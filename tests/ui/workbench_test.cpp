@@ -218,8 +218,8 @@ TEST_F(WorkbenchTest, ThePictureIsWrittenInTheBackground)
   run_through();
   workbench.apply({command::SavePicture{folder.path() / "a.png"}, command::SavePicture{folder.path() / "a.gif"}});
   ASSERT_TRUE(until([&] { return workbench.messages().size() == 2; }));
-  EXPECT_TRUE(std::filesystem::file_size(folder.path() / "a.png") > 0);
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.gif"));
+  EXPECT_TRUE(fs::file_size(folder.path() / "a.png") > 0);
+  EXPECT_FALSE(fs::exists(folder.path() / "a.gif"));
   int errors = 0;
   for (const Message& m : workbench.messages()) errors += m.error;
   EXPECT_EQ(errors, 1);
@@ -232,7 +232,7 @@ TEST_F(WorkbenchTest, WhatIsBeingWrittenAtTheEndIsWaitedFor)
   run_through();
   workbench.apply({command::SavePicture{folder.path() / "a.PNG"}, command::SavePicture{folder.path() / "missing" / "b.png"}});
   workbench.finish_files();
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "a.PNG"));
+  EXPECT_TRUE(fs::exists(folder.path() / "a.PNG"));
   EXPECT_EQ(std::ranges::count_if(workbench.messages(), [](const Message& m) { return m.error; }), 1) << "the folder is missing";
 }
 

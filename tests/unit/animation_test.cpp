@@ -3,7 +3,7 @@
 // cannot be.
 #include "preset/animation.h"
 #include "preset/read.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::animation_test {
 
@@ -153,17 +153,16 @@ TEST(Animation, IsRefusedInOneLine)
   };
   for (const Case& c : cases) {
     const std::string line = refusal_of([&] { read(tracks(c.track)); });
-    EXPECT_THAT(line, testing::StartsWith(c.line)) << c.track;
+    EXPECT_THAT(line, StartsWith(c.line)) << c.track;
     EXPECT_EQ(line.find('\n'), std::string::npos);
   }
   for (const char* frames : {"0", "10001", "-3", "2.5", "1e9"})
     EXPECT_THAT(refusal_of([&] { read(with(std::string(R"({"frames": )") + frames + "}")); }),
-                testing::AllOf(testing::StartsWith("a.json#/animation/frames: is "),
-                               testing::HasSubstr("expected a whole number from 1 to 10000")));
+                AllOf(StartsWith("a.json#/animation/frames: is "), HasSubstr("expected a whole number from 1 to 10000")));
   EXPECT_THAT(refusal_of([&] { read(with(R"({"fps": 0})")); }),
-              testing::StartsWith("a.json#/animation/fps: is 0; expected a number from 0.1 to 1000"));
+              StartsWith("a.json#/animation/fps: is 0; expected a number from 0.1 to 1000"));
   EXPECT_THAT(refusal_of([&] { read(with("{}"), {"reference=a.exr"}); }),
-              testing::StartsWith("--set reference=a.exr: is one picture for all frames"));
+              StartsWith("--set reference=a.exr: is one picture for all frames"));
 }
 
 // The light turns over by way of no direction at all, half way: frame 5 of 11.

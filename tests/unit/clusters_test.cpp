@@ -3,7 +3,7 @@
 // curves: sorting the wavelengths by n saves the clusters that it saves in the thesis (section 4.1.1: 202 and 204 sorted, 247 not sorted).
 #include "optics/dispersion.h"
 #include "spectral/clusters/clusters.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::clusters_test {
 
@@ -248,11 +248,11 @@ TEST(Clusters, BadInputIsRefused)
   };
   const Spectrum good = made([](double) { return 1.5; });
   for (double threshold : {0.0, -1.0, 90.0, static_cast<double>(NAN), static_cast<double>(INFINITY)})
-    EXPECT_THAT(error_of(good, threshold), testing::HasSubstr("expected above 0 and below 90"));
+    EXPECT_THAT(error_of(good, threshold), HasSubstr("expected above 0 and below 90"));
   for (double value : {0.0, -1.5, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
     Spectrum bad = good;
     bad[20] = value;
-    EXPECT_THAT(error_of(bad, 0.05), testing::HasSubstr("at 400 nm; expected a number above 0"));
+    EXPECT_THAT(error_of(bad, 0.05), HasSubstr("at 400 nm; expected a number above 0"));
   }
 }
 

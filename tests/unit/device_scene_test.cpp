@@ -9,9 +9,8 @@
 #include "spectral/clusters/clusters.h"
 #include "spectral/engine.h"
 #include "spectral/tables/run_tables.h"
-#include "tests/support/errors.h"
 #include "tests/support/presets.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tracing/scales.h"
 #include "tracing/targets.h"
 #include "tracing/wavelength_tables.h"
@@ -154,10 +153,10 @@ TEST(RunTables, RefuseMoreMediaThanAPathCanCarry)
   EXPECT_EQ(tables_of(p).camera.inside.count, MEDIA_DEPTH);
   p.scene.objects.push_back(object("", preset::Shape{}, "thing"));
   const auto refusal = [&p] { return refusal_of([&p] { tables_of(p); }); };
-  EXPECT_THAT(refusal(), testing::StartsWith("p.json#/scene/camera/position: is inside 9 dielectric objects; expected at most 8"));
+  EXPECT_THAT(refusal(), StartsWith("p.json#/scene/camera/position: is inside 9 dielectric objects; expected at most 8"));
   p.scene.camera.position = {0, 0, 20};
   p.scene.lights[0].position = {0, 0, 0.1};
-  EXPECT_THAT(refusal(), testing::StartsWith("p.json#/scene/lights/0/position: is inside 9 dielectric objects"));
+  EXPECT_THAT(refusal(), StartsWith("p.json#/scene/lights/0/position: is inside 9 dielectric objects"));
 }
 
 TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass)
@@ -229,18 +228,18 @@ TEST(SpectralPlan, SaysWhenAPassNeedsMorePhotons)
   preset::Preset p = scene_with({}, glass(1.5));
   spectral::settings(p).method = spectral::Settings::Method::brute_force;
   spectral::settings(p).photons_per_pass = 1;
-  EXPECT_THAT(plan_of(p).notes, testing::Contains(testing::HasSubstr("raised from 1 to 401")));
+  EXPECT_THAT(plan_of(p).notes, Contains(HasSubstr("raised from 1 to 401")));
 }
 
 TEST(SpectralPlan, SaysThatStepsDoNothingWithoutBruteForce)
 {
   preset::Preset p = scene_with({}, glass(1.5));
-  EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
+  EXPECT_THAT(plan_of(p).notes, IsEmpty());
   spectral::settings(p).step_nm = 4;
   EXPECT_THAT(plan_of(p).notes,
-              testing::ElementsAre("spectral.step_nm: 4 does nothing here: spectral.method is optimal, and only brute_force has steps"));
+              ElementsAre("spectral.step_nm: 4 does nothing here: spectral.method is optimal, and only brute_force has steps"));
   spectral::settings(p).method = spectral::Settings::Method::brute_force;
-  EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
+  EXPECT_THAT(plan_of(p).notes, IsEmpty());
 }
 
 TEST(ExactCdf, IsInProportion)
@@ -310,7 +309,7 @@ TEST(Losses, TheLargestDifferenceIsWhatASearchFinds)
 }
 
 /// A ball of glass, 0.1 m across, from clear at 380 nm to opaque at 780 nm, or a mirror from white to black.
-scene::Scene dyed_scene(const std::filesystem::path& folder, bool mirror)
+scene::Scene dyed_scene(const fs::path& folder, bool mirror)
 {
   preset::Preset p = test::empty_preset(4);
   preset::Shape ball;

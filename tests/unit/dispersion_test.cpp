@@ -2,7 +2,7 @@
 // Dispersion against published figures, hand-computed values of every formula, and the oddities of the refractiveindex.info database.
 // Malformed files: each answers with one line that names the file, the line where it can, and what is expected.
 #include "optics/dispersion.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::dispersion_test {
 
@@ -11,8 +11,8 @@ using Rows = std::vector<std::array<double, 2>>;
 using nephroid::Error;
 using nephroid::optics::parse_dispersion;
 
-const std::filesystem::path materials = std::filesystem::path(NEPHROID_SOURCE_DIR) / "presets/materials";
-const std::filesystem::path more = std::filesystem::path(NEPHROID_SOURCE_DIR) / "tests/data/dispersion";
+const fs::path materials = fs::path(NEPHROID_SOURCE_DIR) / "presets/materials";
+const fs::path more = fs::path(NEPHROID_SOURCE_DIR) / "tests/data/dispersion";
 
 constexpr double line_F = 486.1327, line_d = 587.5618, line_C = 656.2725;
 
@@ -99,8 +99,7 @@ TEST(Dispersion, AFormulaWithoutAFiniteValueAnswersNothing)
   const IndexSample below = curve.sample(445); // just below the pole at 450 nm: n^2 is far below 0
   EXPECT_FALSE(below.n);
   EXPECT_TRUE(below.extrapolated);
-  EXPECT_THAT(refusal_of([&] { sample_n(curve, Outside::automatic); }),
-              testing::AllOf(testing::HasSubstr("gives no number at"), testing::HasSubstr("500..1000 nm")));
+  EXPECT_THAT(refusal_of([&] { sample_n(curve, Outside::automatic); }), AllOf(HasSubstr("gives no number at"), HasSubstr("500..1000 nm")));
   EXPECT_NEAR(sample_n(curve, Outside::hold)[0], n_at(curve, 500), 1e-15);
 }
 
@@ -111,7 +110,7 @@ TEST(Dispersion, RangeEndsCountAsInside)
   for (double nm : {486.0, 589.31}) EXPECT_TRUE(curve.sample(nm).extrapolated) << nm;
   EXPECT_NO_THROW(curve.sample(589.3, Outside::refuse));
   EXPECT_THAT(refusal_of([&] { curve.sample(600, Outside::refuse); }),
-              testing::HasSubstr("test.yml: test has no n at 600 nm; expected a wavelength in its range 486.1..589.3 nm"));
+              HasSubstr("test.yml: test has no n at 600 nm; expected a wavelength in its range 486.1..589.3 nm"));
 }
 
 TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
@@ -129,8 +128,8 @@ TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
   EXPECT_EQ(outside_note(glass, Outside::automatic), "N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)");
   EXPECT_EQ(outside_note(glass, Outside::hold), "N-SF66: n is held below 390 nm (data: 390..2500 nm)");
   EXPECT_EQ(outside_note(load_dispersion(materials / "N-BK7.yml"), Outside::automatic), "");
-  EXPECT_THAT(refusal_of([&] { sample_n(glass, Outside::refuse); }), testing::HasSubstr("no n at 380 nm"));
-  EXPECT_THAT(refusal_of([&] { sample_k(glass, Outside::refuse); }), testing::HasSubstr("no k at 380 nm"));
+  EXPECT_THAT(refusal_of([&] { sample_n(glass, Outside::refuse); }), HasSubstr("no n at 380 nm"));
+  EXPECT_THAT(refusal_of([&] { sample_k(glass, Outside::refuse); }), HasSubstr("no k at 380 nm"));
 
   const DispersionCurve table = tabulated(Rows{{500, 1.6}, {600, 1.5}});
   for (Outside outside : {Outside::automatic, Outside::hold, Outside::extrapolate}) {
@@ -149,7 +148,7 @@ TEST(Dispersion, DatabaseTablesAreReadAsTheyAre)
   EXPECT_NEAR(n_at(odd, 550), 0.2, 1e-12);
   EXPECT_NEAR(*odd.sample(700).k, -0.01, 1e-15);
   EXPECT_EQ(sample_k(odd, Outside::automatic)[700 - first_nm], 0); // but light does not gain from it
-  EXPECT_THAT(refusal_of([&] { sample_n(odd, Outside::automatic); }), testing::HasSubstr("n above 0"));
+  EXPECT_THAT(refusal_of([&] { sample_n(odd, Outside::automatic); }), HasSubstr("n above 0"));
 
   const DispersionCurve single = from_yaml("  - type: tabulated n\n    data: |\n        0.5893 1.33\n");
   EXPECT_EQ(n_at(single, 589.3), 1.33);
@@ -164,7 +163,7 @@ TEST(Dispersion, FilesWithOneOfNAndKOrWithBothApart)
   EXPECT_FALSE(k_only.sample(500).n);
   EXPECT_NEAR(*k_only.sample(500).k, 0.2, 1e-15);
   EXPECT_EQ(k_only.range_nm(), (std::array{400.0, 600.0}));
-  EXPECT_THAT(refusal_of([&] { sample_n(k_only, Outside::automatic); }), testing::HasSubstr("no index of refraction n, only k"));
+  EXPECT_THAT(refusal_of([&] { sample_n(k_only, Outside::automatic); }), HasSubstr("no index of refraction n, only k"));
 
   const DispersionCurve both = from_yaml("  - type: tabulated k\n    data: |\n        0.4 0.1\n  - type: constant\n    value: 1.7\n");
   EXPECT_EQ(n_at(both, 500), 1.7);
@@ -237,12 +236,11 @@ TEST(Dispersion, ControlPointsAreJoinedSmoothly)
 
 TEST(Dispersion, BadCurvesAreRefused)
 {
-  using testing::HasSubstr;
   // n^2 = 1 + l^2 / (l^2 - 0.36): negative from 424 nm to the resonance at 600 nm, inside the range.
   const std::array<double, 1> strength{1}, resonance{0.36};
   for (const Outside outside : {Outside::automatic, Outside::hold})
     EXPECT_THAT(refusal_of([&] { sample_n(sellmeier(strength, resonance), outside); }),
-                testing::AllOf(HasSubstr("gives no number at 425 nm: n^2 is negative or infinite there"), testing::Not(HasSubstr("hold"))));
+                AllOf(HasSubstr("gives no number at 425 nm: n^2 is negative or infinite there"), Not(HasSubstr("hold"))));
   const double two[] = {1, 2}, one[] = {1}, bad[] = {1, NAN};
   EXPECT_THAT(refusal_of([&] { sellmeier(two, one); }), HasSubstr("2 values of b and 1 of c"));
   EXPECT_THAT(refusal_of([&] { sellmeier({}, {}); }), HasSubstr("no coefficients"));

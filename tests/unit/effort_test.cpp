@@ -6,7 +6,6 @@
 #include "spectral/effort/importance.h"
 #include "spectral/engine.h"
 #include "spectral/tables/run_tables.h"
-#include "tests/support/errors.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
 
@@ -83,7 +82,7 @@ TEST(DealtEffort, EqualGivesEveryClusterTheSame)
 {
   const RunTables tables = tables_of(lit_ball(Effort::equal));
   ASSERT_GT(tables.wavelengths.clusters.size(), 5u);
-  EXPECT_THAT(tables.importance, testing::Each(1));
+  EXPECT_THAT(tables.importance, Each(1));
   expect_clusters_in_proportion(tables, tables.importance);
 }
 
@@ -138,13 +137,13 @@ TEST(DealtEffort, IsNotAskedForWhereThereIsNoCaustic)
 {
   preset::Preset p = lit_ball(Effort::importance);
   p.scene.objects.pop_back(); // the floor
-  EXPECT_THAT(tables_of(p).importance, testing::Each(1));
+  EXPECT_THAT(tables_of(p).importance, Each(1));
   p = lit_ball(Effort::importance);
   p.scene.lights.clear();
-  EXPECT_THAT(tables_of(p).importance, testing::Each(1));
+  EXPECT_THAT(tables_of(p).importance, Each(1));
   p = lit_ball(Effort::importance);
   p.scene.materials["floor"].reflectance.value = 0;
-  EXPECT_THAT(refusal_of([&] { tables_of(p); }), testing::StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every"));
+  EXPECT_THAT(refusal_of([&] { tables_of(p); }), StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every"));
 }
 
 TEST(DealtEffort, IsInThePlan)
@@ -160,11 +159,11 @@ TEST(DealtEffort, IsInThePlan)
     return std::string();
   };
   EXPECT_THAT(reason_of(Effort::importance, true), testing::MatchesRegex(".*surroundings \\(4.15\\): [0-9]+ % of the iterations.*"));
-  EXPECT_THAT(reason_of(Effort::radziszewski, true), testing::HasSubstr("cosh"));
-  EXPECT_THAT(reason_of(Effort::equal, false), testing::HasSubstr("spectral.effort is equal"));
-  EXPECT_THAT(reason_of(Effort::power, false), testing::HasSubstr("what the eye makes of each cluster's light"));
-  EXPECT_THAT(reason_of(Effort::automatic, false), testing::HasSubstr("while that gains enough"));
-  EXPECT_THAT(reason_of(Effort::variance, false), testing::HasSubstr("variance that is measured"));
+  EXPECT_THAT(reason_of(Effort::radziszewski, true), HasSubstr("cosh"));
+  EXPECT_THAT(reason_of(Effort::equal, false), HasSubstr("spectral.effort is equal"));
+  EXPECT_THAT(reason_of(Effort::power, false), HasSubstr("what the eye makes of each cluster's light"));
+  EXPECT_THAT(reason_of(Effort::automatic, false), HasSubstr("while that gains enough"));
+  EXPECT_THAT(reason_of(Effort::variance, false), HasSubstr("variance that is measured"));
 }
 
 TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)

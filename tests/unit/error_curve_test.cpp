@@ -3,8 +3,7 @@
 // with the same bits, and what is no whole history is refused at its line.
 #include "measure/history_file.h"
 #include "measure/run_curves.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace nephroid::error_curve_test {
 
@@ -168,10 +167,10 @@ void expect_same(const job::History& a, const job::History& b)
   }
 }
 
-class HistoryFile : public ::testing::Test {
+class HistoryFile : public testing::Test {
 protected:
   test::TemporaryFolder temporary;
-  std::filesystem::path folder = temporary.path();
+  fs::path folder = temporary.path();
 
   job::History read(const std::string& text)
   {
@@ -276,7 +275,7 @@ TEST_F(HistoryFile, what_is_no_file_is_refused)
   EXPECT_THAT(test::refusal_of([&] { measure::read_history(folder / "none.csv"); }), HasSubstr("cannot be read"));
   EXPECT_THAT(test::refusal_of([&] { measure::read_history(folder); }), HasSubstr("it is a folder"));
   write_file_whole(folder / "huge.csv", "");
-  std::filesystem::resize_file(folder / "huge.csv", std::uintmax_t(1) << 40); // takes no room on the disk
+  fs::resize_file(folder / "huge.csv", std::uintmax_t(1) << 40); // takes no room on the disk
   EXPECT_THAT(test::refusal_of([&] { measure::read_history(folder / "huge.csv"); }), HasSubstr("has 1048576 MiB"));
 }
 

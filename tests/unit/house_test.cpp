@@ -160,16 +160,16 @@ TEST(House, third_party_readme_names_every_dependency)
   }
   std::set<std::string> dependencies = names_in(cmake, R"(find_package\((\w[\w-]*))");
   dependencies.merge(names_in(cmake, R"(pkg_check_modules\((\w[\w-]*))"));
-  ASSERT_THAT(dependencies, testing::IsSupersetOf({"OpenCL", "OpenImageIO", "embree", "GTest"}));
-  for (const std::string& name : dependencies) EXPECT_THAT(readme, testing::HasSubstr("`" + name + "`"));
+  ASSERT_THAT(dependencies, IsSupersetOf({"OpenCL", "OpenImageIO", "embree", "GTest"}));
+  for (const std::string& name : dependencies) EXPECT_THAT(readme, HasSubstr("`" + name + "`"));
 }
 
 TEST(House, third_party_readme_names_every_debian_package)
 {
   const std::string readme = text_of(root / "third_party/README.md");
   const std::set<std::string> packages = debian_packages();
-  ASSERT_THAT(packages, testing::IsSupersetOf({"g++", "pocl-opencl-icd", "libgtest-dev"}));
-  for (const std::string& name : packages) EXPECT_THAT(readme, testing::HasSubstr("`" + name + "`"));
+  ASSERT_THAT(packages, IsSupersetOf({"g++", "pocl-opencl-icd", "libgtest-dev"}));
+  for (const std::string& name : packages) EXPECT_THAT(readme, HasSubstr("`" + name + "`"));
 }
 
 // Dependencies are found in third_party/, once: a find_package elsewhere would escape the table of licences.

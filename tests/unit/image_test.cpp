@@ -3,8 +3,7 @@
 // comparisons take them: what is decoded and what is linear already, which channels, which way up; and masks.
 #include "image/image.h"
 #include "measure/read_picture.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 #include <sys/mount.h>
 #include <unistd.h>

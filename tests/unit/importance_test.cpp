@@ -6,8 +6,8 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "spectral/effort/importance.h"
-#include "tests/support/errors.h"
 #include "tests/support/presets.h"
+#include "tests/support/test.h"
 
 namespace nephroid::importance_test {
 
@@ -266,7 +266,7 @@ TEST(Importance, OfOtherEffortsNeedsNoSurroundings)
   }
   for (const Effort effort : {Effort::equal, Effort::random}) {
     spectral::settings(p).effort = effort;
-    EXPECT_THAT(importance_of(p).u, testing::Each(1));
+    EXPECT_THAT(importance_of(p).u, Each(1));
   }
 }
 
@@ -277,9 +277,8 @@ std::string refusal_of_importance(const preset::Preset& p)
 
 TEST(Importance, ThatIsZeroEverywhereIsRefusedWithTheReason)
 {
-  using testing::HasSubstr;
   preset::Preset p = ball_in_a_room(white(0));
-  EXPECT_THAT(refusal_of_importance(p), testing::StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every wavelength: "));
+  EXPECT_THAT(refusal_of_importance(p), StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every wavelength: "));
   EXPECT_THAT(refusal_of_importance(p), HasSubstr("nothing around the caustic objects reflects a wavelength that the lights have"));
   p = ball_in_a_room(white());
   p.scene.lights[0].power_w = 0;
@@ -309,8 +308,8 @@ TEST(Importance, OfAClusterIsTheLargestOrTheMean)
   u[3] = 0.25, u[4] = 1, u[5] = 0.5;
   const std::vector<std::vector<int>> clusters{{3, 4, 5, 6}, {0}, {5, 3}};
   using Cluster = spectral::Importance::Cluster;
-  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::maximum), testing::ElementsAre(1, 0, 0.5));
-  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::mean), testing::ElementsAre(0.4375, 0, 0.375));
+  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::maximum), ElementsAre(1, 0, 0.5));
+  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::mean), ElementsAre(0.4375, 0, 0.375));
 }
 
 // ceil(u N), and never two turns in one pass, so that sppm can take them as the passes go by.

@@ -3,7 +3,6 @@
 #include "measure/measured_job.h"
 
 #include "measure/history_file.h"
-#include "tests/support/errors.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
 
@@ -128,7 +127,7 @@ TEST(MeasuredJob, WithoutAReferenceTheEstimateIsWhatThereIs)
   const auto job = noisy(settings(), nullptr);
   const job::History history = run(*job);
   EXPECT_EQ(history.error_column, "estimated_lab_mean");
-  EXPECT_THAT(history.columns, testing::Not(Contains("lab_mean")));
+  EXPECT_THAT(history.columns, Not(Contains("lab_mean")));
   EXPECT_GE(history.rows.front().step, 2) << "it needs both halves";
 }
 

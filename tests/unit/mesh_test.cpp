@@ -2,7 +2,7 @@
 // Mesh files of every format written here, checks of meshes, smooth normals and winding numbers.
 #include "scene/mesh.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace nephroid::scene::mesh_test {
 

@@ -3,8 +3,6 @@
 // preset.
 #include "preset/differences.h"
 #include "tests/support/child.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 
@@ -135,7 +133,7 @@ TEST(PresetDifferences, EachChangedFieldIsOneOverride)
       folder.write("a.json", R"({"engine":"spectral","scene":{"materials":{"glass":{"type":"dielectric","dispersion":1.5}},
     "lights":[{"type":"point","spectrum":"D65"}],"objects":[{"name":"ball","shape":{"type":"sphere"},"material":"glass"}]}})");
   Preset p = preset::read_preset(file);
-  EXPECT_THAT(preset::recipe_of(p).overrides, testing::IsEmpty());
+  EXPECT_THAT(preset::recipe_of(p).overrides, IsEmpty());
   p.scene.lights[0].power_w = 2.5;
   p.scene.camera.position = {0, 1, 9};
   p.stop.passes = 8;
@@ -143,10 +141,9 @@ TEST(PresetDifferences, EachChangedFieldIsOneOverride)
   p.scene.lights[0].spectrum.illuminant = "A";
   p.scene.objects[0].name = "it's 1";
   EXPECT_THAT(preset::recipe_of(p).overrides,
-              testing::UnorderedElementsAre("scene.lights.0.power_w=2.5", "scene.camera.position=[0.0,1.0,9.0]", "stop.passes=8",
-                                            R"(scene.materials.glass.dispersion={"type":"constant","n":1.6})",
-                                            R"(scene.lights.0.spectrum={"type":"illuminant","illuminant":"A"})",
-                                            "scene.objects.0.name=it's 1"));
+              UnorderedElementsAre("scene.lights.0.power_w=2.5", "scene.camera.position=[0.0,1.0,9.0]", "stop.passes=8",
+                                   R"(scene.materials.glass.dispersion={"type":"constant","n":1.6})",
+                                   R"(scene.lights.0.spectrum={"type":"illuminant","illuminant":"A"})", "scene.objects.0.name=it's 1"));
   const std::vector<std::string> words = shell_words(preset::command_line(p));
   ASSERT_GT(words.size(), 4u);
   EXPECT_EQ(words[0] + " " + words[1] + " " + words[2], "nephroid run " + file);
@@ -282,13 +279,13 @@ TEST(PresetDifferences, AreListedByFieldWithBothValues)
   Preset after = before;
   after.name = "another";
   after.source = "after.json";
-  EXPECT_THAT(preset::differences(before, after), testing::IsEmpty()) << "what it is called is no difference";
+  EXPECT_THAT(preset::differences(before, after), IsEmpty()) << "what it is called is no difference";
   after.scene.lights[1].power_w = 3;
   after.stop.passes.reset();
   after.stop.seconds = 10;
   EXPECT_THAT(preset::differences(before, after),
-              testing::ElementsAre(preset::Difference{"scene.lights.1.power_w", "2.0", "3.0"},
-                                   preset::Difference{"stop.seconds", "null", "10.0"}, preset::Difference{"stop.passes", "5", "null"}));
+              ElementsAre(preset::Difference{"scene.lights.1.power_w", "2.0", "3.0"}, preset::Difference{"stop.seconds", "null", "10.0"},
+                          preset::Difference{"stop.passes", "5", "null"}));
   // Another type, and another number of items, are one difference each.
   after = before;
   after.scene.lights.pop_back();

@@ -5,9 +5,7 @@
 #include "optics/colour.h"
 #include "scene/environment.h"
 #include "scene/materials.h"
-#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
-#include "tests/support/temporary_folder.h"
 #include "tracing/scene_tables.h"
 
 namespace nephroid::scene::scene_light_test {

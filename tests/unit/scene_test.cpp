@@ -3,9 +3,7 @@
 // between fields, refused at the right place.
 #include "scene/materials.h"
 #include "scene/scene.h"
-#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::scene::scene_test {
 
@@ -224,7 +222,7 @@ protected:
     return preset;
   }
   const test::TemporaryFolder temporary;
-  const std::filesystem::path folder = temporary.path();
+  const fs::path folder = temporary.path();
 };
 
 constexpr const char* tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
@@ -279,7 +277,7 @@ TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption)
   EXPECT_TRUE(scene.materials[0].absorbs);
   EXPECT_NEAR(scene.materials[0].k[550 - 380], 0.25, 1e-12);
   EXPECT_NEAR(scene.materials[0].n[0], 1.6, 1e-12); // a table holds its ends
-  EXPECT_THAT(scene.warnings, ElementsAre(testing::AllOf(HasSubstr("material 'glass': "), HasSubstr("400"))));
+  EXPECT_THAT(scene.warnings, ElementsAre(AllOf(HasSubstr("material 'glass': "), HasSubstr("400"))));
   glass.absorption = false;
   EXPECT_FALSE(load_scene(preset).materials[0].absorbs);
   glass.dispersion.outside = preset::Outside::refuse;
@@ -288,7 +286,7 @@ TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption)
 
 TEST_F(SceneFiles, TheBunnyIsClosedAndWhole)
 {
-  if (!std::filesystem::exists("/usr/share/glmark2/models/bunny.obj")) GTEST_SKIP() << "glmark2-data is not installed";
+  if (!fs::exists("/usr/share/glmark2/models/bunny.obj")) GTEST_SKIP() << "glmark2-data is not installed";
   preset::Preset preset = ball_over_floor();
   preset.scene.objects[0].shape.reset();
   preset.scene.objects[0].mesh = "/usr/share/glmark2/models/bunny.obj";
@@ -347,7 +345,7 @@ TEST(SceneRefusals, PointAtTheRightPlace)
   for (const Wrong& wrong : wrongs) {
     preset::Preset preset = ball_over_floor();
     wrong.change(preset.scene);
-    EXPECT_THAT(refusal(preset), testing::StartsWith(wrong.says));
+    EXPECT_THAT(refusal(preset), StartsWith(wrong.says));
   }
 }
 

@@ -3,7 +3,7 @@
 #include "preset/preset.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::scene::shapes_test {
 

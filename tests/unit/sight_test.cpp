@@ -5,7 +5,6 @@
 #include "scene/scene.h"
 #include "spectral/clusters/clusters.h"
 #include "spectral/sight.h"
-#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/presets.h"

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every order of three commands while a job works at an adoption: the end is what the newest of them say, and a picture is of the preset
 // that it counts as.
-#include "base/error.h"
 #include "job/worker.h"
 #include "preset/preset.h"
-#include "tests/support/eventually.h"
 #include "tests/support/test.h"
 
 #include <future>

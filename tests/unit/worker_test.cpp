@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The worker with a job that counts: every order of commands ends in a defined state, and readers never wait.
-#include "base/error.h"
 #include "job/worker.h"
-#include "tests/support/eventually.h"
 #include "tests/support/test.h"
 
 #include <future>
