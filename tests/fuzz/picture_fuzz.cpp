@@ -40,10 +40,7 @@ void read(std::string_view input)
   const fs::path file = map_of(input, width, height);
   const FileFinder finder(folder());
   accepts([&] {
-    preset::Environment environment;
-    environment.type = preset::Environment::Type::file;
-    environment.file = file.string();
-    environment.lights = true;
+    preset::Environment environment{.type = preset::Environment::Type::file, .file = file.string(), .lights = true};
     std::vector<std::string> warnings;
     const scene::Environment map = scene::make_environment(environment, finder, "fuzz.json", warnings);
     if (map.width != width || map.height != height) finding("another size is read");
@@ -54,13 +51,8 @@ void read(std::string_view input)
   });
   accepts([&] { measure::read_mask(file, width, height); });
   accepts([&] {
-    inverse::Picture wanted;
-    wanted.type = inverse::Picture::Type::file;
-    wanted.file = file.string();
-    inverse::Layout layout;
-    layout.facets = {16, 16};
-    layout.cells = {8, 8};
-    layout.distances = {100};
+    inverse::Picture wanted{.type = inverse::Picture::Type::file, .file = file.string()};
+    inverse::Layout layout{.facets = {16, 16}, .cells = {8, 8}, .distances = {100}};
     inverse::make_target(wanted, layout, finder, "fuzz.json");
   });
 }

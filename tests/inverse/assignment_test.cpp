@@ -118,12 +118,7 @@ TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement)
 
 TEST(Assignment, HasThePicturesOfAnObjectThatIsNotSquare)
 {
-  Layout layout;
-  layout.size = {120, 60};
-  layout.receiver = {80, 80};
-  layout.facets = {64, 32};
-  layout.cells = {24, 24};
-  layout.distances = {150};
+  Layout layout{.size = {120, 60}, .facets = {64, 32}, .receiver = {80, 80}, .cells = {24, 24}, .distances = {150}};
   Picture star;
   star.type = Picture::Type::star;
   star.count = 5;
@@ -153,8 +148,7 @@ TEST(Cost, IsThatOfTheThesisOverCellsWithLight)
 // unlike it alone: 1 - cos theta for itself; of its neighbours, two have 2 of their own and one has 3.
 TEST(Smoothing, RoughnessIsCostN)
 {
-  Layout layout;
-  layout.facets = {3, 2};
+  Layout layout{.facets = {3, 2}};
   std::vector<glm::dvec2> slopes(6);
   EXPECT_NEAR(roughness(layout, slopes), 0, 1e-15);
   slopes[1] = {0.3, -0.2};
@@ -182,11 +176,7 @@ struct Made {
 
 Made made(double smoothing)
 {
-  Layout layout;
-  layout.facets = {32, 32};
-  layout.cells = {16, 16};
-  layout.distances = {100, 200};
-  layout.smoothing = smoothing;
+  Layout layout{.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}, .smoothing = smoothing};
   Picture ring, disc;
   ring.type = Picture::Type::ring;
   const FileFinder finder;
@@ -273,10 +263,7 @@ TEST(Conflicts, AllLightWherePicturesExcludeEachOther)
 // What is misplaced by facets is what the picture lacks elsewhere: |Z - T| / 2 of light that is all there.
 TEST(Conflicts, AddUpToTheError)
 {
-  Layout layout;
-  layout.facets = {32, 32};
-  layout.cells = {16, 16};
-  layout.distances = {100};
+  Layout layout{.facets = {32, 32}, .cells = {16, 16}, .distances = {100}};
   const std::vector<Target> targets{box(3, 9, 2, 12)};
   const Assignment a(layout, targets, 4); // random slopes, all of them to the receiver
   const double sent = inverse::light_sent(layout, a.slopes());

@@ -10,26 +10,19 @@ using namespace inverse;
 
 Layout cells(int across, int down)
 {
-  Layout layout;
-  layout.cells = {across, down};
-  layout.receiver = glm::dvec2(across, down);
+  Layout layout{.receiver = glm::dvec2(across, down), .cells = {across, down}};
   return layout;
 }
 
 Picture words(const std::string& text, double length)
 {
-  Picture picture;
-  picture.type = Picture::Type::text;
-  picture.text = text;
-  picture.length = length;
+  Picture picture{.type = Picture::Type::text, .text = text, .length = length};
   return picture;
 }
 
 Picture code(const std::string& text)
 {
-  Picture picture;
-  picture.type = Picture::Type::qr;
-  picture.text = text;
+  Picture picture{.type = Picture::Type::qr, .text = text};
   return picture;
 }
 
@@ -117,9 +110,7 @@ TEST(Pictures, WordsWithoutLetters)
 // A face is lit, has grey levels, and its eyes are darker than its brow.
 TEST(Pictures, AFaceHasGreyLevels)
 {
-  Picture picture;
-  picture.type = Picture::Type::face;
-  picture.radius = 0.5;
+  Picture picture{.type = Picture::Type::face, .radius = 0.5};
   const Target target = made(picture, cells(64, 64));
   std::vector<double> values(target);
   std::sort(values.begin(), values.end());
@@ -141,10 +132,7 @@ protected:
 TEST_F(PictureFiles, ToneIsAnExponent)
 {
   image::write_exr(file + ".exr", {2, 1, {"Y"}, {2.0f, 4.0f}, {}, false});
-  Picture picture;
-  picture.type = Picture::Type::file;
-  picture.file = file + ".exr";
-  picture.tone = 2;
+  Picture picture{.type = Picture::Type::file, .file = file + ".exr", .tone = 2};
   const Target target = made(picture, cells(2, 1));
   EXPECT_NEAR(target[0], 0.2, 1e-9); // (1/2)^2 of 1 + (1/2)^2
   EXPECT_NEAR(target[1], 0.8, 1e-9);
@@ -161,9 +149,7 @@ TEST_F(PictureFiles, AreDarkWhereTheyAreTransparent)
 TEST_F(PictureFiles, AreRefusedWhereTheyAreHuge)
 {
   std::ofstream(file + ".hdr", std::ios::binary) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n";
-  Picture picture;
-  picture.type = Picture::Type::file;
-  picture.file = file + ".hdr";
+  Picture picture{.type = Picture::Type::file, .file = file + ".hdr"};
   EXPECT_THAT(test::refusal_of([&] { made(picture, cells(8, 8)); }),
               AllOf(HasSubstr("p.hdr"), HasSubstr("60000 x 60000 pixels of 3 channels, and at most 2^29 values are read")));
 }

@@ -11,10 +11,7 @@ using namespace inverse;
 
 inline Layout small_layout()
 {
-  Layout layout;
-  layout.facets = {32, 32};
-  layout.cells = {16, 16};
-  layout.distances = {100, 200};
+  Layout layout{.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}};
   return layout;
 }
 

@@ -11,10 +11,7 @@ using inverse::Layout;
 
 inline Layout small(int columns, int rows)
 {
-  Layout layout;
-  layout.size = {7, 5};
-  layout.thickness = 3;
-  layout.facets = {columns, rows};
+  Layout layout{.size = {7, 5}, .thickness = 3, .facets = {columns, rows}};
   return layout;
 }
 

@@ -156,8 +156,7 @@ TEST(ThesisSampler, DrawsCellsAsOftenAsTheyAreBright)
   std::vector<double> picture = lit({2, 7});
   picture[4 * 9 + 7] = 0.25;
   for (const Thesis::Sampling sampling : both) {
-    Thesis settings;
-    settings.sampling = sampling;
+    Thesis settings{.sampling = sampling};
     settings.directions = 90; // ten a cell
     std::mt19937_64 random(1);
     const Draws draws = Sampler(layout, {{100, picture, 0}}, settings).draw(0, 5000, random);
@@ -176,10 +175,7 @@ TEST(ThesisSampler, DrawsCellsAsOftenAsTheyAreBright)
 // (5.1) by brute force: for each cell of the first receiver the product of both pictures, over many directions through it.
 TEST(ThesisSampler, FollowsTheProductOfThePictures)
 {
-  Layout layout;
-  layout.facets = {4, 4};
-  layout.cells = {6, 6};
-  layout.distances = {100, 150};
+  Layout layout{.facets = {4, 4}, .cells = {6, 6}, .distances = {100, 150}};
   std::mt19937_64 random(5);
   std::vector<Aim> aims{{100, {}, 0}, {150, {}, 0}};
   for (Aim& aim : aims)
@@ -196,9 +192,7 @@ TEST(ThesisSampler, FollowsTheProductOfThePictures)
   }
   const double all = std::accumulate(expected.begin(), expected.end(), 0.0);
   for (const Thesis::Sampling sampling : both) {
-    Thesis settings;
-    settings.sampling = sampling;
-    settings.directions = 300;
+    Thesis settings{.sampling = sampling, .directions = 300};
     constexpr int count = 20000;
     const Draws draws = Sampler(layout, aims, settings).draw(facet, count, random);
     std::vector<double> counts(36);
@@ -216,8 +210,7 @@ TEST(ThesisSampler, HasNoDrawWhereNoDirectionIsLitInAll)
   const Layout layout = one_facet();
   std::mt19937_64 random(1);
   for (const Thesis::Sampling sampling : both) {
-    Thesis settings;
-    settings.sampling = sampling;
+    Thesis settings{.sampling = sampling};
     EXPECT_TRUE(Sampler(layout, {{100, lit({6}), 0}, {200, lit({4}), 0}}, settings).draw(0, 3, random).slopes.empty());
     EXPECT_EQ(Sampler(layout, {{100, lit({6}), 0}, {200, lit({8}), 0}}, settings).draw(0, 3, random).slopes.size(), 3u);
     // Column 7 leads beside the second receiver: with overshoot that is allowed.

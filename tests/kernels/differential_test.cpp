@@ -197,9 +197,7 @@ preset::Preset smooth_rod() { return rod(preset::Object::Normals::smooth); }
 preset::Preset brilliant()
 {
   preset::Preset p = room();
-  preset::Shape stone;
-  stone.type = preset::Shape::Type::brilliant;
-  stone.radius = 1;
+  preset::Shape stone{.type = preset::Shape::Type::brilliant, .radius = 1};
   p.scene.objects.push_back(object("stone", stone, "flint", at({0, 0, 0}, {20, 10, 0})));
   return p;
 }

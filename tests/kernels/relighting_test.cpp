@@ -11,8 +11,7 @@ namespace nephroid::relighting_test {
 
 preset::LightSpectrum illuminant(const std::string& name)
 {
-  preset::LightSpectrum spectrum;
-  spectrum.illuminant = name;
+  preset::LightSpectrum spectrum{.illuminant = name};
   return spectrum;
 }
 
@@ -251,8 +250,7 @@ TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers)
   preset::Preset p = layered(ball_scene());
   p.scene.objects.pop_back(); // no diffuse surface
   p.stop.passes = 1;
-  tracing::LeaveOut leave_out;
-  leave_out.direct = leave_out.photons = false;
+  tracing::LeaveOut leave_out{.direct = false, .photons = false};
   const job::Snapshot snapshot = render(*job_of(p, leave_out));
   for (const float value : snapshot.picture->rgb) ASSERT_EQ(value, 0);
 }

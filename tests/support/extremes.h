@@ -118,8 +118,7 @@ inline preset::Preset lit_floor(int pixels = 16)
   p.scene.lights.resize(1);
   p.scene.lights[0].spectrum = line(550);
   p.scene.lights[0].position = {0.1, 1, -0.2};
-  Screen screen;
-  screen.pixels = pixels;
+  Screen screen{.pixels = pixels};
   screen.fill(p.scene.camera, 2);
   spectral::settings(p).direct = true;
   spectral::settings(p).pixel_samples = 16;

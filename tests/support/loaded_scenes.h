@@ -10,9 +10,7 @@ namespace nephroid::test {
 
 inline preset::Object shape_object(const std::string& name, preset::Shape::Type type, const std::string& material)
 {
-  preset::Object object;
-  object.name = name;
-  object.shape = preset::Shape{};
+  preset::Object object{.name = name, .shape = preset::Shape{}};
   object.shape->type = type;
   object.material = material;
   return object;
@@ -21,8 +19,7 @@ inline preset::Object shape_object(const std::string& name, preset::Shape::Type 
 /// A glass ball of diameter 1 at the origin over a wall, a point light above.
 inline preset::Preset ball_over_floor()
 {
-  preset::Preset preset;
-  preset.source = "p.json";
+  preset::Preset preset{.source = "p.json"};
   preset.scene.materials["glass"].type = preset::Material::Type::dielectric;
   preset.scene.materials["mirror"].type = preset::Material::Type::mirror;
   preset.scene.materials["wall"];

@@ -117,10 +117,7 @@ void for_each_block(Image& image, Visit visit)
 
 inline void write_statistics(const fs::path& file, const StoredStatistics& stored)
 {
-  image::Image image;
-  image.width = stored_size;
-  image.height = stored_image::height();
-  image.channels = stored_image::channels;
+  image::Image image{.width = stored_size, .height = stored_image::height(), .channels = stored_image::channels};
   image.data.assign(static_cast<std::size_t>(6 * image.width * image.height), 0.0f);
   stored_image::for_each_block(image, [&](std::size_t level, std::size_t i, float* values) {
     for (std::size_t c = 0; c < 3; ++c) {

@@ -31,8 +31,7 @@ public:
     for (const auto& entry : fs::directory_iterator(kernel_folder()))
       fs::create_symlink(fs::absolute(entry.path()), folder_ / entry.path().filename());
     std::ofstream(folder_ / "test.cl") << source;
-    compute::DeviceOptions options;
-    options.kernels = folder_;
+    compute::DeviceOptions options{.kernels = folder_};
     context_ = compute::Context::open(options);
   }
   ~TestKernels() { fs::remove_all(folder_); }

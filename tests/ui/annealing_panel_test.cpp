@@ -190,9 +190,7 @@ TEST_F(AnnealingPanelTest, TheFinishedObjectIsShownAsGlass)
 
 TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam)
 {
-  inverse::Layout layout;
-  layout.facets = {2, 1};
-  layout.distances = {100};
+  inverse::Layout layout{.facets = {2, 1}, .distances = {100}};
   job::Picture slopes{2, 1, {0, 0, 1, 5, 0, 0.5f}, {}, {}};
   EXPECT_FALSE(facet_beam(slopes, layout, {2, 0}));
   EXPECT_FALSE(box_of(facet_beam(slopes, layout, {1, 0})->prints[0])) << "a slope of 5 misses it";

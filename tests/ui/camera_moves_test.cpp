@@ -15,11 +15,7 @@ constexpr double tolerance = 1e-9;
 
 preset::Camera at(double x, double y, double z)
 {
-  preset::Camera camera;
-  camera.position = {x, y, z};
-  camera.target = {0, 0, 0};
-  camera.fov_deg = 90;
-  camera.resolution = {200, 100};
+  preset::Camera camera{.position = {x, y, z}, .target = {0, 0, 0}, .fov_deg = 90, .resolution = {200, 100}};
   return camera;
 }
 

@@ -15,9 +15,7 @@ inline std::string shipped(const std::string& name) { return std::string(NEPHROI
 
 inline preset::Dispersion from_file(const std::string& file)
 {
-  preset::Dispersion dispersion;
-  dispersion.type = preset::Dispersion::Type::file;
-  dispersion.file = file;
+  preset::Dispersion dispersion{.type = preset::Dispersion::Type::file, .file = file};
   return dispersion;
 }
 

@@ -133,18 +133,16 @@ TEST(ErrorLines, HaveAMetricsErrorItsEstimateAndTheirSlopes)
 
 TEST(ErrorLines, AnEstimateAloneIsWhatARunIsJudgedBy)
 {
-  job::History history;
-  history.columns = {"estimated_lab_mean"};
-  history.rows = {{1, 1, 1, 10, {0.5}}};
+  job::History history{.columns = {"estimated_lab_mean"}, .rows = {{1, 1, 1, 10, {0.5}}}};
   EXPECT_THAT(measure::metric_names(history), ElementsAre("lab_mean"));
   EXPECT_THAT(lines_of(history, "lab_mean").judged().curve.errors, ElementsAre(0.5));
 }
 
 TEST(ErrorLines, WhatHasNoLogarithmIsLeftOut)
 {
-  job::History history;
-  history.columns = {"psnr_db"};
-  history.rows = {{0, 0, 0, 0, {1}}, {1, 1, 1, 10, {nan}}, {2, 2, 2, 20, {0}}, {3, 3, 3, 30, {-4}}, {4, 4, 4, 40, {}}, {5, 5, 5, 50, {7}}};
+  job::History history{
+      .columns = {"psnr_db"},
+      .rows = {{0, 0, 0, 0, {1}}, {1, 1, 1, 10, {nan}}, {2, 2, 2, 20, {0}}, {3, 3, 3, 30, {-4}}, {4, 4, 4, 40, {}}, {5, 5, 5, 50, {7}}}};
   EXPECT_THAT(lines_of(history, "psnr_db").error.curve.seconds, ElementsAre(2, 3, 5)) << "on a linear axis";
   history.columns = {"lab_mean"};
   EXPECT_THAT(lines_of(history, "lab_mean").error.curve.seconds, ElementsAre(5)) << "on a logarithmic one";
@@ -218,9 +216,7 @@ TEST(ErrorLines, AxesHoldEveryPointAndTheTarget)
   EXPECT_GT(range.errors[1], 0.11);
   const PlotRange none = plot_range({}, {});
   EXPECT_LT(none.seconds[0], none.seconds[1]);
-  job::History one;
-  one.columns = {"lab_mean"};
-  one.rows = {{1, 1, 1, 10, {0.5}}};
+  job::History one{.columns = {"lab_mean"}, .rows = {{1, 1, 1, 10, {0.5}}}};
   const RunLines dot = lines_of(one, "lab_mean");
   const RunLines* dots[] = {&dot};
   const PlotRange about = plot_range(dots, {});
@@ -230,10 +226,9 @@ TEST(ErrorLines, AxesHoldEveryPointAndTheTarget)
 
 TEST(ErrorLines, CopyAsCsv)
 {
-  job::History history;
-  history.columns = {"lab_mean", "estimated_lab_mean"};
-  history.rows = {{1.5, 2, 1, 10, {0.5, nan}}, {3, 4, 2, 20, {0.25, 0.3}}};
-  history.noise_floor = {0.125, nan};
+  job::History history{.columns = {"lab_mean", "estimated_lab_mean"},
+                       .rows = {{1.5, 2, 1, 10, {0.5, nan}}, {3, 4, 2, 20, {0.25, 0.3}}},
+                       .noise_floor = {0.125, nan}};
   const NamedLines named[] = {{"a \"b\"", lines_of(history, "lab_mean")}};
   EXPECT_EQ(plot_csv(named, 0.0625), "run,line,seconds,error\n"
                                      "\"a \"\"b\"\"\",error,1.5,0.5\n\"a \"\"b\"\"\",error,3,0.25\n\"a \"\"b\"\"\",estimate,3,0.3\n"

@@ -60,12 +60,11 @@ public:
   bool finished() const override { return done_ >= runs_.steps; }
   job::Progress progress() const override
   {
-    job::Progress p;
-    p.step = done_;
-    p.steps = runs_.steps;
-    p.fraction = static_cast<double>(done_) / runs_.steps;
-    p.work = 1000 * static_cast<std::uint64_t>(done_);
-    p.work_seconds = 0.002 * done_;
+    job::Progress p{.fraction = static_cast<double>(done_) / runs_.steps,
+                    .step = done_,
+                    .steps = runs_.steps,
+                    .work = 1000 * static_cast<std::uint64_t>(done_),
+                    .work_seconds = 0.002 * done_};
     return p;
   }
   job::Snapshot snapshot() override
@@ -77,11 +76,8 @@ public:
     for (std::size_t i = 0; i < pixels; ++i)
       for (double c : preset_.scene.camera.position) picture->rgb.push_back(static_cast<float>(c));
     picture->layers = {{"direct", picture->rgb}};
-    job::Snapshot made;
-    made.picture = picture;
-    made.whole = done_ >= runs_.whole_from;
-    made.progress = progress();
-    made.phases = {{"photons", 0.002 * done_}};
+    job::Snapshot made{
+        .picture = picture, .whole = done_ >= runs_.whole_from, .progress = progress(), .phases = {{"photons", 0.002 * done_}}};
     if (!preset_.scene.lights.empty())
       made.scalars.push_back({"energy", "emitted_w", preset_.scene.lights[0].power_w}); // tells which light it is of
     made.files = runs_.files;

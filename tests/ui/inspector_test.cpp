@@ -77,10 +77,7 @@ TEST_F(InspectorTest, AKeyTakesThePixelInTheMiddleAndLetsItGo)
   EXPECT_THAT(pixel(), Optional(Pixel{32, 24}));
   press(ImGuiKey_I);
   EXPECT_FALSE(pixel());
-  Look near;
-  near.fit = false;
-  near.zoom = 8;
-  near.centre = {10.5, 1e9};
+  Look near{.fit = false, .zoom = 8, .centre = {10.5, 1e9}};
   workbench.apply({command::SetLook{near}});
   press(ImGuiKey_I);
   EXPECT_THAT(pixel(), Optional(Pixel{10, 47}));

@@ -128,11 +128,7 @@ TEST_F(OpeningTest, AMapBecomesTheEnvironment)
     p.scene.environment->lights = true;
   });
   workbench.apply({command::Open{other}});
-  preset::Environment expected;
-  expected.file = other;
-  expected.radiance = 3;
-  expected.rotate_deg = 40;
-  expected.lights = true;
+  preset::Environment expected{.file = other, .radiance = 3, .rotate_deg = 40, .lights = true};
   EXPECT_EQ(workbench.preset()->scene.environment, expected);
   for (int i = 0; i < 3; ++i) workbench.apply({command::Undo{}});
   EXPECT_FALSE(workbench.preset()->scene.environment);

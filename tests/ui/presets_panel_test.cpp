@@ -211,9 +211,7 @@ TEST(ThumbnailsTest, AreReadInTheBackgroundAndBrokenOnesAreNone)
 {
   const test::TemporaryFolder folder;
   test::Headless imgui;
-  job::Picture picture;
-  picture.width = 400;
-  picture.height = 200;
+  job::Picture picture{.width = 400, .height = 200};
   picture.rgb.assign(3 * 400 * 200, 1.0f);
   for (std::size_t i = 0; i < 3 * 400 * 100; ++i) picture.rgb[i] = 0; // the upper half is black
   write_thumbnail(folder.path() / "new" / "good.png", picture, 0);

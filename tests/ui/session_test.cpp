@@ -42,9 +42,7 @@ protected:
   std::string preset_file() const { return folder.write("test.json", test::preset_text); }
   std::string text_of(const Workbench& workbench) const
   {
-    Session session;
-    session.edits = workbench.edits()->state();
-    session.chosen = workbench.chosen();
+    Session session{.edits = workbench.edits()->state(), .chosen = workbench.chosen()};
     return SessionText().of(session);
   }
 };
@@ -119,8 +117,7 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
       states.push_back(preset::to_json(*window.workbench.preset()));
     }
     for (int i = 0; i < 20; ++i) window.workbench.apply({command::Undo{}});
-    Look look;
-    look.exposure_stops = 1.5;
+    Look look{.exposure_stops = 1.5};
     window.workbench.apply({command::SetLook{look}, command::ChooseMetric{"mse"}, command::AddBookmark{}});
     window.settle();
   } // not closed

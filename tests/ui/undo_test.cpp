@@ -6,8 +6,7 @@ namespace nephroid::ui::undo_test {
 
 preset::Preset with_seed(std::uint64_t seed)
 {
-  preset::Preset preset;
-  preset.seed = seed;
+  preset::Preset preset{.seed = seed};
   return preset;
 }
 

@@ -142,11 +142,7 @@ constexpr std::uint64_t gib = std::uint64_t{1} << 30;
 
 compute::DeviceInfo device(const char* type, std::uint64_t memory_bytes, std::uint64_t max_buffer_bytes)
 {
-  compute::DeviceInfo info;
-  info.name = "abacus";
-  info.type = type;
-  info.memory_bytes = memory_bytes;
-  info.max_buffer_bytes = max_buffer_bytes;
+  compute::DeviceInfo info{.name = "abacus", .type = type, .memory_bytes = memory_bytes, .max_buffer_bytes = max_buffer_bytes};
   return info;
 }
 

@@ -27,8 +27,7 @@ preset::Preset scene_with(const preset::Shape& shape, const preset::Material& ma
   p.scene.materials["thing"] = material;
   p.scene.materials["white"] = white(0.5);
   p.scene.objects = {object("thing", shape, "thing"), object("floor", quad(10, 10), "white", at({0, -2, 0}))};
-  preset::Light light;
-  light.position = {0, 5, 0};
+  preset::Light light{.position = {0, 5, 0}};
   p.scene.lights = {light};
   spectral::settings(p).direct = true;
   return p;
@@ -64,8 +63,7 @@ TEST(Targets, ABallIsOneAndARodIsMany)
   EXPECT_EQ(tracing::caustic_targets(round).size(), 1u);
   expect_enclosed(round, tracing::caustic_targets(round));
 
-  preset::Shape rod;
-  rod.type = preset::Shape::Type::sphere;
+  preset::Shape rod{.type = preset::Shape::Type::sphere};
   preset::Preset p = scene_with(rod, glass(1.5));
   p.scene.objects[0].transform.scale = {1, 8, 1};
   const scene::Scene scene = scene::load_scene(p);
@@ -165,8 +163,7 @@ TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass)
     const scene::Scene scene = scene::load_scene(p);
     return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {}).eye_paths;
   };
-  preset::Shape ball;
-  ball.radius = 1;
+  preset::Shape ball{.radius = 1};
   preset::Preset p = scene_with(ball, glass(1.5));
   p.scene.camera.position = {0, 0, 4};
   p.scene.camera.target = {0, 0, 0};
@@ -312,8 +309,7 @@ TEST(Losses, TheLargestDifferenceIsWhatASearchFinds)
 scene::Scene dyed_scene(const fs::path& folder, bool mirror)
 {
   preset::Preset p = test::empty_preset(4);
-  preset::Shape ball;
-  ball.radius = 0.05;
+  preset::Shape ball{.radius = 0.05};
   preset::Material& material = p.scene.materials["dye"] = mirror ? check::mirror(0.5) : test::glass(1.5);
   if (mirror) {
     material.reflectance.type = preset::Reflectance::Type::table;

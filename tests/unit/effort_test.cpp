@@ -29,8 +29,7 @@ preset::Preset lit_ball(Effort effort)
   dispersive.dispersion.coefficients = {1.6, 0.02};
   p.scene.materials = {{"glass", dispersive}, {"floor", white(0.7)}};
   p.scene.objects = {object("ball", check::ball(0.5), "glass"), object("floor", quad(10, 10), "floor", at({0, -1, 0}))};
-  preset::Light light;
-  light.position = {0, 3, 0};
+  preset::Light light{.position = {0, 3, 0}};
   p.scene.lights = {light, light};
   p.scene.lights[1].spectrum.illuminant = "A";
   p.scene.lights[1].power_w = 3;

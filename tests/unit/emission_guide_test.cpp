@@ -252,8 +252,7 @@ TEST(LayerEmitters, HalfOfThePhotonsGoEvenlyHalfByThePresentLight)
 
 TEST(LayerWeights, AddUpToTheColourOfTheReflectorUnderTheLight)
 {
-  tracing::WavelengthTables tables;
-  tables.reflector_count = 2;
+  tracing::WavelengthTables tables{.reflector_count = 2};
   tables.clusters.resize(3);
   for (int w = 0; w < optics::wavelength_count; ++w) tables.clusters[static_cast<std::size_t>(w * 7 % 3)].push_back(w);
   tables.reflectance.assign(2 * optics::wavelength_count, 1.0f);

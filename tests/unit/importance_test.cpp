@@ -33,17 +33,13 @@ preset::Shape room(double x, double y, double z)
 
 preset::Light lamp(const preset::LightSpectrum& spectrum, double power_w = 1)
 {
-  preset::Light light;
-  light.spectrum = spectrum;
-  light.power_w = power_w;
-  light.position = {0.3, 1.5, 0.2};
+  preset::Light light{.spectrum = spectrum, .power_w = power_w, .position = {0.3, 1.5, 0.2}};
   return light;
 }
 
 preset::LightSpectrum illuminant(const std::string& name)
 {
-  preset::LightSpectrum s;
-  s.illuminant = name;
+  preset::LightSpectrum s{.illuminant = name};
   return s;
 }
 

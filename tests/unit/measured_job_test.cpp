@@ -26,12 +26,11 @@ public:
   bool finished() const override { return done_ >= steps_; }
   job::Progress progress() const override
   {
-    job::Progress p;
-    p.step = done_;
-    p.steps = steps_;
-    p.fraction = static_cast<double>(done_) / steps_;
-    p.work = static_cast<std::uint64_t>(done_) * 1000;
-    p.work_seconds = 10.0 * done_;
+    job::Progress p{.fraction = static_cast<double>(done_) / steps_,
+                    .step = done_,
+                    .steps = steps_,
+                    .work = static_cast<std::uint64_t>(done_) * 1000,
+                    .work_seconds = 10.0 * done_};
     return p;
   }
   job::Snapshot snapshot() override
@@ -43,9 +42,7 @@ public:
       picture->rgb.push_back(static_cast<float>((sums_[0][i] + sums_[1][i]) / n));
       if (halves_ && b > 0) picture->error_draw.push_back(static_cast<float>((sums_[0][i] / a - sums_[1][i] / b) * std::sqrt(a * b) / n));
     }
-    job::Snapshot snapshot;
-    snapshot.picture = std::move(picture);
-    snapshot.progress = progress();
+    job::Snapshot snapshot{.picture = std::move(picture), .progress = progress()};
     return snapshot;
   }
   void save(ByteSink& to) override { to.write(std::vector<std::byte>(static_cast<std::size_t>(done_))); }

@@ -309,8 +309,7 @@ TEST(OnlyRelit, IsNothingElse)
 TEST(Adoptable, NoEngineTakesOnAnothersPreset)
 {
   for (const engine::Engine* own : engine::engines()) {
-    preset::Preset before;
-    before.settings = preset::Settings(own->settings());
+    preset::Preset before{.settings = preset::Settings(own->settings())};
     for (const engine::Engine* other : engine::engines()) {
       if (other == own) continue;
       preset::Preset now = before;

@@ -254,9 +254,7 @@ TEST_F(SceneFiles, DropsAndSaysSo)
 
 TEST_F(SceneFiles, ShippedMaterialsHaveShortNamesWhichFilesBesideThePresetGoBefore)
 {
-  preset::Dispersion dispersion;
-  dispersion.type = preset::Dispersion::Type::file;
-  dispersion.file = "N-BK7";
+  preset::Dispersion dispersion{.type = preset::Dispersion::Type::file, .file = "N-BK7"};
   const FileFinder finder(folder);
   const auto n_at_d = [&] { return make_curve(dispersion, finder, "p.json#/n").sample(587.5618).n.value(); };
   EXPECT_NEAR(n_at_d(), 1.5168, 1e-5); // Schott's data sheet

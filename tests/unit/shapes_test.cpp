@@ -12,8 +12,7 @@ constexpr double pi = std::numbers::pi;
 
 preset::Shape shape(Type type)
 {
-  preset::Shape result;
-  result.type = type;
+  preset::Shape result{.type = type};
   return result;
 }
 

@@ -15,9 +15,7 @@ using glm::dvec3;
 
 Scene empty_scene(const glm::dvec3& origin = {0, 0, 0})
 {
-  Scene scene;
-  scene.source = "p.json";
-  scene.origin = origin;
+  Scene scene{.source = "p.json", .origin = origin};
   return scene;
 }
 
@@ -32,10 +30,7 @@ glm::dvec3 direction(const Camera& c, double x, double y)
 // from y = -1 to 1. Row 0 is the top, column 0 the left.
 TEST(Camera, CornersOfThePicture)
 {
-  preset::Camera preset;
-  preset.position = {0, 0, 5};
-  preset.fov_deg = 90;
-  preset.resolution = {400, 200};
+  preset::Camera preset{.position = {0, 0, 5}, .fov_deg = 90, .resolution = {400, 200}};
   const Camera camera = make_camera(preset, empty_scene());
   expect_near(direction(camera, 0, 0), {-2, 1, -1});
   expect_near(direction(camera, 400, 0), {2, 1, -1});
@@ -48,9 +43,7 @@ TEST(Camera, CornersOfThePicture)
 // Straight down with up = +x: the picture's right is forward x up = (-y) x (+x) = +z.
 TEST(Camera, LooksDown)
 {
-  preset::Camera preset;
-  preset.position = {1, 10, 2};
-  preset.target = {1, 3, 2};
+  preset::Camera preset{.position = {1, 10, 2}, .target = {1, 3, 2}};
   preset.up = {5, 0.5, 0}; // only its part across the view counts
   const Camera camera = make_camera(preset, empty_scene());
   expect_near(camera.forward, {0, -1, 0});
@@ -62,9 +55,7 @@ TEST(Camera, LooksDown)
 
 TEST(Camera, KeepsItsPlaceFarAway)
 {
-  preset::Camera preset;
-  preset.position = {1e6 + 0.001, 1e6, 1e6 + 0.002};
-  preset.target = {1e6, 1e6, 1e6};
+  preset::Camera preset{.position = {1e6 + 0.001, 1e6, 1e6 + 0.002}, .target = {1e6, 1e6, 1e6}};
   const Camera camera = make_camera(preset, empty_scene({1e6, 1e6, 1e6}));
   expect_near(camera.position, {0.001, 0, 0.002}, 1e-9);
   expect_near(camera.forward, {-1 / std::sqrt(5), 0, -2 / std::sqrt(5)}, 1e-6);

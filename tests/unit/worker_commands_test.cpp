@@ -38,8 +38,7 @@ public:
   {
     auto picture = std::make_shared<job::Picture>();
     picture->rgb = {static_cast<float>(seed_)};
-    Snapshot snapshot;
-    snapshot.picture = std::move(picture);
+    Snapshot snapshot{.picture = std::move(picture)};
     return snapshot;
   }
   void save(ByteSink&) override {}

@@ -33,9 +33,7 @@ public:
     auto picture = std::make_shared<job::Picture>();
     picture->width = picture->height = 1;
     picture->rgb = {float(count_), 0, 0};
-    Snapshot snapshot;
-    snapshot.picture = std::move(picture);
-    snapshot.progress = progress();
+    Snapshot snapshot{.picture = std::move(picture), .progress = progress()};
     return snapshot;
   }
   void save(ByteSink&) override {}
