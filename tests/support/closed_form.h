@@ -57,11 +57,11 @@ struct Screen {
   }
   void fill(preset::Camera& camera, double height) const
   {
-    camera.position = {centre[0], centre[1] + height, centre[2]};
-    camera.target = centre;
-    camera.up = {0, 0, -1};
-    camera.fov_deg = 2 * std::atan(side / 2 / height) / degree;
-    camera.resolution = {pixels, pixels};
+    camera = {.position = {centre[0], centre[1] + height, centre[2]},
+              .target = centre,
+              .up = {0, 0, -1},
+              .fov_deg = 2 * std::atan(side / 2 / height) / degree,
+              .resolution = {pixels, pixels}};
   }
 };
 

@@ -25,8 +25,7 @@ inline preset::Preset ball_over_floor()
   preset.scene.materials["wall"];
   preset.scene.objects = {shape_object("ball", preset::Shape::Type::sphere, "glass"),
                           shape_object("floor", preset::Shape::Type::quad, "wall")};
-  preset.scene.objects[1].transform.scale = {10, 1, 10};
-  preset.scene.objects[1].transform.translate = {0, -1, 0};
+  preset.scene.objects[1].transform = {.scale = {10, 1, 10}, .translate = {0, -1, 0}};
   preset.scene.lights.resize(1);
   preset.scene.lights[0].position = {0, 3, 0};
   return preset;

@@ -158,9 +158,7 @@ preset::Preset picked_preset()
   preset::Preset preset = test::ball_over_floor(); // 0: a ball of radius 0.5, 1: the floor at y = -1
   preset.scene.objects.push_back(test::shape_object("box", preset::Shape::Type::box, "wall"));
   preset.scene.objects[2].transform = {{0.5, 2, 0.4}, {10, 20, 30}, {1.2, 0, -0.3}};
-  preset.scene.camera.position = {0.5, 1, 4};
-  preset.scene.camera.target = {0.3, 0, 0};
-  preset.scene.camera.resolution = {64, 48};
+  preset.scene.camera = {.position = {0.5, 1, 4}, .target = {0.3, 0, 0}, .resolution = {64, 48}};
   return preset;
 }
 

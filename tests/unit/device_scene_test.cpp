@@ -165,10 +165,7 @@ TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass)
   };
   preset::Shape ball{.radius = 1};
   preset::Preset p = scene_with(ball, glass(1.5));
-  p.scene.camera.position = {0, 0, 4};
-  p.scene.camera.target = {0, 0, 0};
-  p.scene.camera.fov_deg = 90;
-  p.scene.camera.resolution = {128, 128};
+  p.scene.camera = {.position = {0, 0, 4}, .target = {0, 0, 0}, .fov_deg = 90, .resolution = {128, 128}};
   spectral::settings(p).photons_per_pass = 1 << 17;
   // Its outline is a disc of radius 1 / sqrt(4^2 - 1) in a square of side 2.
   const double share = M_PI / 15 / 4;

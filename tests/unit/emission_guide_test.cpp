@@ -290,12 +290,8 @@ preset::Preset ball_and_mirror(const preset::Vec3& eye)
   p.scene.objects[0].transform.scale = {40, 1, 40};
   p.scene.objects[1].shape->segments = 32;
   p.scene.objects[1].transform.translate = {0.3, 0.6, 0};
-  p.scene.objects[2].transform.scale = {3, 1, 9};
-  p.scene.objects[2].transform.rotate_deg = {20, 30, -70};
-  p.scene.objects[2].transform.translate = {-3, 1.5, 0};
-  p.scene.camera.position = eye;
-  p.scene.camera.target = {0, 0.5, 0};
-  p.scene.camera.resolution = {width, height};
+  p.scene.objects[2].transform = {{3, 1, 9}, {20, 30, -70}, {-3, 1.5, 0}};
+  p.scene.camera = {.position = eye, .target = {0, 0.5, 0}, .resolution = {width, height}};
   return p;
 }
 

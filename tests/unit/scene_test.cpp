@@ -164,9 +164,7 @@ TEST(Scene, ClosedDielectricsAreTurnedOutwards)
 TEST(Scene, SpheresAndWhatAScaleMakesOfThem)
 {
   preset::Preset preset = ball_over_floor();
-  preset.scene.objects[0].transform.scale = {-3, 3, 3};
-  preset.scene.objects[0].transform.rotate_deg = {10, 20, 30};
-  preset.scene.objects[0].transform.translate = {5, 6, 7};
+  preset.scene.objects[0].transform = {{-3, 3, 3}, {10, 20, 30}, {5, 6, 7}};
   const Scene sphere = load_scene(preset);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(sphere.geometry.ellipsoids[0].half_axes[static_cast<std::size_t>(k)][k], 1.5f);
   EXPECT_FALSE(sphere.geometry.ellipsoids[0].inwards);
@@ -175,8 +173,7 @@ TEST(Scene, SpheresAndWhatAScaleMakesOfThem)
   test::expect_near(low, {3.5, 4.5, 5.5});
   test::expect_near(high, {6.5, 7.5, 8.5});
 
-  preset.scene.objects[0].transform.scale = {2, 4, 6};
-  preset.scene.objects[0].transform.rotate_deg = {0, 0, 30};
+  preset.scene.objects[0].transform = {{2, 4, 6}, {0, 0, 30}, {5, 6, 7}};
   const Scene scene = load_scene(preset);
   const Ellipsoid& ellipsoid = scene.geometry.ellipsoids[0];
   EXPECT_NEAR(volume(scene, 0), 4.0 / 3 * M_PI * 1 * 2 * 3, 1e-5);

@@ -251,10 +251,7 @@ preset::Preset one_pixel(preset::Vec3 target)
   p.scene.materials["glass"] = test::glass(n);
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["wall"];
-  p.scene.camera.position = {0, 0, 0};
-  p.scene.camera.target = target;
-  p.scene.camera.fov_deg = 1;
-  p.scene.camera.resolution = {1, 1};
+  p.scene.camera = {.position = {0, 0, 0}, .target = target, .fov_deg = 1, .resolution = {1, 1}};
   return p;
 }
 
@@ -262,8 +259,7 @@ preset::Object& add(preset::Preset& p, const char* name, preset::Shape::Type typ
                     preset::Vec3 at)
 {
   p.scene.objects.push_back(test::shape_object(name, type, material));
-  p.scene.objects.back().transform.scale = scale;
-  p.scene.objects.back().transform.translate = at;
+  p.scene.objects.back().transform = {.scale = scale, .translate = at};
   return p.scene.objects.back();
 }
 

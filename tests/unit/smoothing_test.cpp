@@ -17,11 +17,8 @@ struct FloorAndWall {
     p.scene.objects = {test::shape_object("floor", preset::Shape::Type::quad, "wall"),
                        test::shape_object("wall", preset::Shape::Type::quad, "wall")};
     for (preset::Object& object : p.scene.objects) object.transform.scale = {20, 1, 20};
-    p.scene.objects[1].transform.rotate_deg = {90, 0, 0};
-    p.scene.objects[1].transform.translate = {0, 0, -2};
-    p.scene.camera.position = {0, 2, 3};
-    p.scene.camera.target = {0, 0, -2};
-    p.scene.camera.resolution = {size, size};
+    p.scene.objects[1].transform = {{20, 1, 20}, {90, 0, 0}, {0, 0, -2}};
+    p.scene.camera = {.position = {0, 2, 3}, .target = {0, 0, -2}, .resolution = {size, size}};
     scene = scene::load_scene(p);
     bvh = scene::build_bvh(scene.geometry);
   }
@@ -164,12 +161,9 @@ scene::Scene two_walls(const preset::Object& between, double wall_height)
   p.scene.objects = {between, test::shape_object("left", preset::Shape::Type::quad, "wall"),
                      test::shape_object("right", preset::Shape::Type::quad, "wall")};
   for (const int i : {1, 2}) {
-    p.scene.objects[static_cast<std::size_t>(i)].transform.scale = {40, 1, 80};
-    p.scene.objects[static_cast<std::size_t>(i)].transform.translate = {i == 1 ? -20.0 : 20.0, wall_height, 0};
+    p.scene.objects[static_cast<std::size_t>(i)].transform = {.scale = {40, 1, 80}, .translate = {i == 1 ? -20.0 : 20.0, wall_height, 0}};
   }
-  p.scene.camera.position = {0, 5, 0.5};
-  p.scene.camera.target = {0, 0, 0};
-  p.scene.camera.resolution = {size, size};
+  p.scene.camera = {.position = {0, 5, 0.5}, .target = {0, 0, 0}, .resolution = {size, size}};
   return scene::load_scene(p);
 }
 
@@ -195,9 +189,7 @@ TEST(Smoothing, knows_what_a_mirror_shows)
 TEST(Smoothing, knows_what_a_window_shows)
 {
   preset::Object pane = test::shape_object("pane", preset::Shape::Type::box, "glass");
-  pane.transform.scale = {20, 0.2, 20};
-  pane.transform.translate = {0, 2, 0};
-  pane.transform.rotate_deg = {30, 0, 0};
+  pane.transform = {{20, 0.2, 20}, {30, 0, 0}, {0, 2, 0}};
   expect_no_light_on_the_left(two_walls(pane, 0));
 }
 
@@ -205,8 +197,7 @@ TEST(Smoothing, knows_what_a_window_shows)
 TEST(Smoothing, spreads_within_curved_glass)
 {
   preset::Object ball = test::shape_object("ball", preset::Shape::Type::sphere, "glass");
-  ball.transform.scale = {8, 8, 8};
-  ball.transform.translate = {0, -4, 0};
+  ball.transform = {.scale = {8, 8, 8}, .translate = {0, -4, 0}};
   const scene::Scene scene = two_walls(ball, -20);
   spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), true);
   Photons photons = scatter([](int, int) { return 1.0; }, 11);
