@@ -141,10 +141,8 @@ inline std::string only_message(const ui::Workbench& workbench)
 }
 
 /// The workbench on fake jobs and the program's real worker thread, without a window.
-class WorkbenchFixture : public testing::Test {
-protected:
+struct Bench {
   FakeRuns runs;
-  TemporaryFolder folder;
   ui::Workbench workbench{runs};
 
   bool until(const std::function<bool()>& done)
@@ -155,18 +153,25 @@ protected:
   {
     return until([&] { return workbench.run().status().state == state; });
   }
-  /// Opens the preset and runs it to its end.
-  void run_through()
-  {
-    ASSERT_TRUE(workbench.open(folder.write("test.json", preset_text)));
-    ASSERT_TRUE(until(job::State::finished));
-  }
   /// As a panel does; gesture and live: as command::Edit has them.
   void edit(const std::function<void(preset::Preset&)>& change, std::uint64_t gesture = 0, bool live = false)
   {
     preset::Preset edited = *workbench.preset();
     change(edited);
     workbench.apply({ui::command::Edit{"edit", edited, gesture, live}});
+  }
+};
+
+class WorkbenchFixture : public testing::Test, protected Bench {
+protected:
+  TemporaryFolder folder;
+
+  void open(const std::string& text = preset_text) { ASSERT_TRUE(workbench.open(folder.write("test.json", text))); }
+  /// Opens the preset and runs it to its end.
+  void run_through()
+  {
+    open();
+    ASSERT_TRUE(until(job::State::finished));
   }
 };
 

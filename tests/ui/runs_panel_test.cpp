@@ -3,20 +3,19 @@
 #include "measure/history_file.h"
 #include "ui/runs/panel.h"
 #include "ui/state/run_record.h"
-#include "ui/state/session_keeper.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::runs_panel_test {
 
-class RunsPanelTest : public test::WindowFixtureOf<test::FakeRuns> {
+class RunsPanelTest : public test::WindowFixture {
 protected:
-  RunsPanelTest() : WindowFixtureOf("runs") { runs.plan.engine = "spectral"; }
+  RunsPanelTest() : WindowFixture("runs") { runs.plan.engine = "spectral"; }
 
   const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
   void click_on(const std::string& widget) { click_in(panel(), widget); }
   void edit(const std::function<void(preset::Preset&)>& change)
   {
-    WindowFixtureOf::edit(change);
+    WindowFixture::edit(change);
     ASSERT_TRUE(until_current());
     finish();
   }
@@ -232,17 +231,10 @@ TEST_F(RunsPanelTest, ASessionKeepsWhatIsKnownOfAPin)
 {
   run_measured();
   press(ImGuiKey_P);
-  const auto state = folder.path() / "state";
-  {
-    SessionKeeper keeper(state);
-    keeper.close(workbench);
-  }
-  test::FakeRuns other_runs;
-  Workbench other(other_runs);
-  SessionKeeper keeper(state);
-  keeper.reopen(other);
-  ASSERT_TRUE(eventually([&] { other.update(); }, [&] { return other.comparing().pinned().all().size() == 1; }));
-  const PinnedRun pin = other.comparing().pinned().all()[0];
+  test::Bench next;
+  reopen_in(next.workbench);
+  ASSERT_TRUE(next.until([&] { return next.workbench.comparing().pinned().all().size() == 1; }));
+  const PinnedRun pin = next.workbench.comparing().pinned().all()[0];
   EXPECT_EQ(pin.name, "Test");
   ASSERT_TRUE(pin.record && pin.record->preset);
   EXPECT_EQ(pin.record->engine, "spectral");

@@ -8,6 +8,7 @@
 #include "ui/shell/workspace.h"
 #include "ui/spectral/dispersion/panel.h"
 #include "ui/spectral/spectra/panel.h"
+#include "ui/state/session_keeper.h"
 #include "ui/view/panel.h"
 #include "ui/widgets/theme.h"
 
@@ -243,6 +244,12 @@ public:
     imgui.key(key, false);
     if (modifier) imgui.key(modifier, false);
     frame();
+  }
+  /// Closes this window's session, and opens it again in another one.
+  void reopen_in(ui::Workbench& other)
+  {
+    ui::SessionKeeper(folder.path() / "state").close(workbench);
+    ui::SessionKeeper(folder.path() / "state").reopen(other);
   }
   const preset::Camera& camera() const { return workbench.preset()->scene.camera; }
   double distance() const

@@ -9,7 +9,7 @@
 #include "ui/inverse/annealing/panel.h"
 #include "ui/spectral/dispersion/model.h"
 
-namespace nephroid::ui::sessions_test {
+namespace nephroid::ui::recorded_sessions_test {
 
 class SpectralSession : public test::PicturedWindow {};
 class EnvironmentSession : public test::PicturedWindow {};
@@ -216,4 +216,4 @@ TEST_F(InverseSession, FromTheStartPageToASavedMesh)
   EXPECT_NEAR(object(view, "receiver 3").transform.translate[2], -after[2].distance_mm, 1e-6);
 }
 
-} // namespace nephroid::ui::sessions_test
+} // namespace nephroid::ui::recorded_sessions_test
