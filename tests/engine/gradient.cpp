@@ -52,13 +52,12 @@ public:
 
   job::Progress progress() const override
   {
-    job::Progress p{.fraction = static_cast<double>(done_) / passes_,
-                    .step = done_,
-                    .steps = passes_,
-                    .work = static_cast<std::uint64_t>(done_) * static_cast<std::uint64_t>(settings_.samples_per_pass) * sums_[0].size(),
-                    .work_seconds = 1e-3 * static_cast<double>(done_),
-                    .units = {.step = "sweep", .steps = "sweeps", .work = "sample", .works = "samples"}};
-    return p;
+    return {.fraction = static_cast<double>(done_) / passes_,
+            .step = done_,
+            .steps = passes_,
+            .work = static_cast<std::uint64_t>(done_) * static_cast<std::uint64_t>(settings_.samples_per_pass) * sums_[0].size(),
+            .work_seconds = 1e-3 * static_cast<double>(done_),
+            .units = {.step = "sweep", .steps = "sweeps", .work = "sample", .works = "samples"}};
   }
 
   job::Snapshot snapshot() override

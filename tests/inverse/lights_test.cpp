@@ -12,16 +12,11 @@ namespace nephroid::lights_test {
 
 using namespace inverse;
 
-Light tilted(double tilt_deg, double turn_deg)
-{
-  Light light{.tilt_deg = tilt_deg, .turn_deg = turn_deg};
-  return light;
-}
+Light tilted(double tilt_deg, double turn_deg) { return {.tilt_deg = tilt_deg, .turn_deg = turn_deg}; }
 
 Light lamp(double distance_mm, std::array<double, 2> offset_mm = {0, 0})
 {
-  Light light{.type = Light::Type::point, .distance_mm = distance_mm, .offset_mm = offset_mm};
-  return light;
+  return {.type = Light::Type::point, .distance_mm = distance_mm, .offset_mm = offset_mm};
 }
 
 Layout with(Layout layout, const Light& light)
@@ -188,11 +183,7 @@ void expect_same_spot(const Layout& layout, const glm::dvec2& slope, double tole
   }
 }
 
-Layout one_facet()
-{
-  Layout layout{.size = {1, 1}, .facets = {1, 1}, .receiver = {120, 120}, .cells = {240, 240}, .distances = {100}};
-  return layout;
-}
+Layout one_facet() { return {.size = {1, 1}, .facets = {1, 1}, .receiver = {120, 120}, .cells = {240, 240}, .distances = {100}}; }
 
 // A steep facet widens the sun's disc along the slope, by the derivative of Snell's law.
 TEST(Lights, ASteepFacetWidensTheSun)

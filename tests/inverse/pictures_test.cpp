@@ -8,23 +8,11 @@ namespace nephroid::pictures_test {
 
 using namespace inverse;
 
-Layout cells(int across, int down)
-{
-  Layout layout{.receiver = glm::dvec2(across, down), .cells = {across, down}};
-  return layout;
-}
+Layout cells(int across, int down) { return {.receiver = glm::dvec2(across, down), .cells = {across, down}}; }
 
-Picture words(const std::string& text, double length)
-{
-  Picture picture{.type = Picture::Type::text, .text = text, .length = length};
-  return picture;
-}
+Picture words(const std::string& text, double length) { return {.type = Picture::Type::text, .text = text, .length = length}; }
 
-Picture code(const std::string& text)
-{
-  Picture picture{.type = Picture::Type::qr, .text = text};
-  return picture;
-}
+Picture code(const std::string& text) { return {.type = Picture::Type::qr, .text = text}; }
 
 Target made(const Picture& picture, const Layout& layout) { return make_target(picture, layout, FileFinder(), "p"); }
 

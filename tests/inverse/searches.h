@@ -9,11 +9,7 @@ namespace nephroid::test {
 
 using namespace inverse;
 
-inline Layout small_layout()
-{
-  Layout layout{.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}};
-  return layout;
-}
+inline Layout small_layout() { return {.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}}; }
 
 inline std::vector<Target> ring_and_disc(const Layout& layout)
 {

@@ -9,11 +9,7 @@
 
 namespace nephroid::relighting_test {
 
-preset::LightSpectrum illuminant(const std::string& name)
-{
-  preset::LightSpectrum spectrum{.illuminant = name};
-  return spectrum;
-}
+preset::LightSpectrum illuminant(const std::string& name) { return {.illuminant = name}; }
 
 /// A ball of dispersing glass over a floor of coloured tiles, which the camera sees beside the ball and through it; two lamps, the second
 /// of which is dark.

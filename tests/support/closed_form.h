@@ -95,8 +95,7 @@ inline std::string write_constant_nk(const fs::path& file, double n, double k)
 /// Parallel light of 1 W/m^2 and 550 nm.
 inline preset::Light parallel_light(const preset::Vec3& direction)
 {
-  preset::Light light{.type = preset::Light::Type::directional, .spectrum = line(550), .direction = direction};
-  return light;
+  return {.type = preset::Light::Type::directional, .spectrum = line(550), .direction = direction};
 }
 inline optics::Spectrum spectrum_of(const preset::Light& light) { return optics::light_lines(light.spectrum.table); }
 

@@ -15,8 +15,7 @@ constexpr double tolerance = 1e-9;
 
 preset::Camera at(double x, double y, double z)
 {
-  preset::Camera camera{.position = {x, y, z}, .target = {0, 0, 0}, .fov_deg = 90, .resolution = {200, 100}};
-  return camera;
+  return {.position = {x, y, z}, .target = {0, 0, 0}, .fov_deg = 90, .resolution = {200, 100}};
 }
 
 glm::dvec3 vector(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }

@@ -110,8 +110,7 @@ TEST_F(DispersionPanelTest, SeveralGlassesAreClusteredTogether)
   preset::Preset edited = *workbench.preset();
   spectral::settings(edited).method = ClusterMethod::brute_force;
   spectral::settings(edited).step_nm = 4;
-  workbench.apply({command::Edit{"method", edited}});
-  frames(2);
+  apply({command::Edit{"method", edited}});
   EXPECT_EQ(panel().model().clusters_of_run(), 101u);
   open_glass({{"glass", flint}});
   EXPECT_EQ(panel().model().clusters_of_run(), panel().model().chosen().clustering.clusters.size());
@@ -129,8 +128,7 @@ TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing)
   EXPECT_EQ(panel().model().curves_made(), curves);
   EXPECT_EQ(panel().model().clusterings_made(), clusterings);
   spectral::settings(edited).threshold_deg = 0.1;
-  workbench.apply({command::Edit{"threshold", edited}});
-  frames(3);
+  apply({command::Edit{"threshold", edited}});
   EXPECT_EQ(panel().model().curves_made(), curves) << "the curve is the same";
   EXPECT_EQ(panel().model().clusterings_made(), clusterings + 1);
 }
@@ -147,8 +145,6 @@ TEST_F(DispersionPanelTest, TheWavelengthsAreZoomedByTheWheel)
   frames(2);
   EXPECT_GT(panel().plot().to_screen({780, 1.55})[0] - panel().plot().to_screen({380, 1.55})[0], 1.1 * before);
 }
-
-// ------------------------------------------------------------------------------------------- what follows the mouse
 
 /// Twelve points that meet every n between 1.5 and 1.9 many times.
 std::vector<ControlPoint> wild()
@@ -293,8 +289,7 @@ TEST_F(RowDragsTest, UndoOfAnAdditionEndsTheDrag)
   let_go();
   frames(2);
   EXPECT_EQ(points(), five);
-  workbench.apply({command::Redo{}});
-  frames(2);
+  apply({command::Redo{}});
   EXPECT_EQ(points().size(), 6u) << "what was undone can be redone: nothing was edited since";
 }
 

@@ -33,11 +33,9 @@ TEST_F(ErrorPanelTest, ThePlotFollowsTheRunInHand)
   const PlotRange& shown = workspace.panel<ui::ErrorPanel>().plot().shown();
   EXPECT_LT(shown.seconds[0], 0.01);
   EXPECT_GT(shown.seconds[1], 0.2);
-  workbench.apply({command::ChooseMetric{"rel_mse"}});
-  frame();
+  apply({command::ChooseMetric{"rel_mse"}});
   EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "rel_mse");
-  workbench.apply({command::ChooseMetric{"flip"}});
-  frame();
+  apply({command::ChooseMetric{"flip"}});
   EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "lab_mean") << "no run has that one";
 }
 
@@ -65,15 +63,13 @@ TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
   for (const auto& history : {nothing, no_rows, one_row, all_nan, same, zero, psnr, floor}) {
     runs.history = [&](int) { return history; };
     run_through();
-    workbench.apply({command::PinRun{}});
-    frames(2);
+    apply({command::PinRun{}});
     hover(workspace.panel<ui::ErrorPanel>().plot().area());
     EXPECT_TRUE(workbench.messages().empty());
     EXPECT_EQ(workbench.run().error_history(), history);
   }
   EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().target, 0.03);
-  workbench.apply({command::ChooseMetric{"psnr_db"}});
-  frames(2);
+  apply({command::ChooseMetric{"psnr_db"}});
   EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "psnr_db");
   EXPECT_TRUE(workbench.messages().empty());
 }

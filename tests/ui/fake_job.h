@@ -60,12 +60,11 @@ public:
   bool finished() const override { return done_ >= runs_.steps; }
   job::Progress progress() const override
   {
-    job::Progress p{.fraction = static_cast<double>(done_) / runs_.steps,
-                    .step = done_,
-                    .steps = runs_.steps,
-                    .work = 1000 * static_cast<std::uint64_t>(done_),
-                    .work_seconds = 0.002 * done_};
-    return p;
+    return {.fraction = static_cast<double>(done_) / runs_.steps,
+            .step = done_,
+            .steps = runs_.steps,
+            .work = 1000 * static_cast<std::uint64_t>(done_),
+            .work_seconds = 0.002 * done_};
   }
   job::Snapshot snapshot() override
   {

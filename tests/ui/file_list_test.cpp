@@ -150,7 +150,6 @@ TEST_F(FileListTest, ATypedNameOfNoFileIsSaidAndNothingIsLost)
   ask(Question::open);
   type((folder.path() / "missing.json").string());
   press(ImGuiKey_Enter);
-  frames(3);
   EXPECT_THAT(last_message(workbench), HasSubstr("missing.json"));
   EXPECT_EQ(workbench.preset()->name, "Test");
 }
@@ -161,7 +160,6 @@ TEST_F(FileListTest, ATypedNameIsOpened)
   ask(Question::open);
   type((folder.path() / "other.json").string());
   press(ImGuiKey_Enter);
-  frames(3);
   EXPECT_EQ(workbench.preset()->name, "Other");
   EXPECT_EQ(workbench.question(), Question::none);
 }
@@ -189,11 +187,9 @@ TEST_F(FileListTest, EnterReplacesAFileTheSecondTimeOnly)
   ask(Question::save_preset);
   type(kept.string());
   press(ImGuiKey_Enter);
-  frames(3);
   EXPECT_EQ(workbench.question(), Question::save_preset) << "it asks once more";
   EXPECT_EQ(read_file(kept), R"({"name": "Kept"})");
   press(ImGuiKey_Enter);
-  frames(3);
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_EQ(preset::read_preset(kept.string()).name, "Test");
 }

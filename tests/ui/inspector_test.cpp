@@ -111,8 +111,7 @@ TEST_F(InspectorTest, SaysValuesLayersAndTheReference)
 TEST_F(InspectorTest, APixelOutsideOfThePictureIsSaidAndComesBack)
 {
   run_through();
-  workbench.apply({command::InspectPixel{Pixel{500, -3}}});
-  frames(2);
+  apply({command::InspectPixel{Pixel{500, -3}}});
   EXPECT_TRUE(pixel_rows(context(), *pixel()).empty());
   press(ImGuiKey_LeftArrow);
   EXPECT_THAT(pixel(), Optional(Pixel{63, 0}));
@@ -133,7 +132,6 @@ TEST_F(InspectorTest, TheSpectrumOfThePixelIsShownAndCopied)
   press(ImGuiKey_RightArrow);
   EXPECT_TRUE(until([&] { return workbench.run().spectrum()->pixel == Pixel{4, 4}; })) << "of a finished run too";
   press(ImGuiKey_I);
-  frames(2);
   EXPECT_EQ(workbench.run().spectrum(), nullptr);
 }
 
@@ -204,8 +202,7 @@ TEST_F(InspectorTest, RegionsOutsideOfThePictureDoNoHarm)
 {
   run_through();
   for (const PixelRegion& region : {PixelRegion{{900, 900}, {1000, 1000}}, PixelRegion{{-50, -50}, {5, 5}}, PixelRegion{{5, 5}, {5, 9}}}) {
-    workbench.apply({command::SelectRegion{region}});
-    frames(3);
+    apply({command::SelectRegion{region}});
   }
   EXPECT_FALSE(workbench.chosen().region) << "the last one is empty";
   EXPECT_TRUE(workbench.messages().empty());

@@ -31,7 +31,6 @@ protected:
     click("search");
     retype(words);
     press(ImGuiKey_Enter);
-    frames(2);
   }
   /// Finds a field and types into it, without Enter.
   void begin_typing(const std::string& pointer, const std::string& typed)
@@ -45,18 +44,13 @@ protected:
   {
     begin_typing(pointer, typed);
     press(ImGuiKey_Enter);
-    frames(2);
   }
   void choose(const std::string& pointer, const std::string& word)
   {
     click(pointer);
     click(pointer + ":" + word);
   }
-  void undo()
-  {
-    press(ImGuiKey_Z, ImGuiMod_Ctrl);
-    frame();
-  }
+  void undo() { press(ImGuiKey_Z, ImGuiMod_Ctrl); }
 };
 
 } // namespace nephroid::test

@@ -98,7 +98,6 @@ TEST_F(PresetsPanelTest, TheKeyboardAloneFindsAndOpens)
   open();
   rest();
   press(ImGuiKey_P, ImGuiMod_Ctrl);
-  frames(3);
   type("inverse/s");
   const std::vector<std::string> listed = panel().listed();
   ASSERT_GE(listed.size(), 2u);
@@ -108,7 +107,6 @@ TEST_F(PresetsPanelTest, TheKeyboardAloneFindsAndOpens)
   press(ImGuiKey_UpArrow);
   EXPECT_EQ(panel().chosen(), entry(listed[0]).file);
   press(ImGuiKey_Enter);
-  frames(2);
   EXPECT_EQ(workbench.preset()->source, entry(listed[0]).file);
 }
 
@@ -275,12 +273,10 @@ TEST_F(StartPageTest, EachButtonDoesWhatItSays)
 {
   click("Open...");
   EXPECT_EQ(workbench.question(), Question::open);
-  workbench.apply({command::Ask{Question::none}});
-  frames(3);
+  apply({command::Ask{Question::none}});
   click("Commands...");
   EXPECT_EQ(workbench.question(), Question::command);
-  workbench.apply({command::Ask{Question::none}});
-  frames(3);
+  apply({command::Ask{Question::none}});
   click("New scene");
   ASSERT_TRUE(workbench.preset());
   EXPECT_EQ(engine(), "spectral");
@@ -304,7 +300,6 @@ TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
   type("environment/ball"); // the field has the keyboard from the start
   ASSERT_EQ(presets().listed().size(), 1u);
   press(ImGuiKey_Enter);
-  frames(3);
   ASSERT_TRUE(workbench.preset());
   EXPECT_EQ(workbench.preset()->name, "ball");
 }
@@ -313,8 +308,7 @@ TEST_F(StartPageTest, AMessageThatComesTakesTheKeyboardFromNobody)
 {
   listed();
   type("environment/");
-  workbench.apply({command::Report{"something went wrong"}});
-  frames(3);
+  apply({command::Report{"something went wrong"}});
   type("ball");
   EXPECT_EQ(presets().listed().size(), 1u);
 }
@@ -325,7 +319,6 @@ TEST_F(StartPageTest, TabAndSpaceOpenAnExample)
   listed();
   for (int tabs = 0; tabs < 40 && !workbench.preset(); ++tabs) {
     press(ImGuiKey_Tab);
-    frames(2);
     const auto card = workspace.start_page().place_of("inverse/shapes");
     const ImRect marked = ImGui::GetCurrentContext()->NavWindow
                               ? ImGui::WindowRectRelToAbs(ImGui::GetCurrentContext()->NavWindow,
@@ -333,7 +326,6 @@ TEST_F(StartPageTest, TabAndSpaceOpenAnExample)
                               : ImRect();
     if (!card || !marked.Contains(ImVec2(static_cast<float>((*card)[0]), static_cast<float>((*card)[1])))) continue;
     press(ImGuiKey_Space);
-    frames(3);
   }
   ASSERT_TRUE(workbench.preset()) << "Tab does not come to the third card";
   EXPECT_EQ(workbench.preset()->name, "shapes");

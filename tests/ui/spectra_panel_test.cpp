@@ -209,8 +209,7 @@ TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
     preset::Preset edited = *workbench.preset();
     edited.scene.lights = {edited.scene.lights.empty() ? preset::Light{} : edited.scene.lights[0]};
     edited.scene.lights[0].spectrum = spectrum;
-    workbench.apply({command::Edit{"light", edited}});
-    frames(3);
+    apply({command::Edit{"light", edited}});
   };
   with_light({Type::table, "", 0, {{800, 1}, {900, 1}}});
   EXPECT_THAT(spectra().lights[0].error, HasSubstr("no power in 380..780 nm"));
@@ -220,12 +219,10 @@ TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
   EXPECT_THAT(spectra().lights[0].error, HasSubstr("D65"));
   preset::Preset edited = *workbench.preset();
   edited.scene.lights.clear();
-  workbench.apply({command::Edit{"no light", edited}});
-  frames(3);
+  apply({command::Edit{"no light", edited}});
   edited.scene.lights = {preset::Light{}};
   edited.scene.materials["glass"].dispersion.coefficients = {-1};
-  workbench.apply({command::Edit{"no glass", edited}});
-  frames(3);
+  apply({command::Edit{"no glass", edited}});
   EXPECT_NE(spectra().why_no_u, "");
   for (const Message& message : workbench.messages()) EXPECT_THAT(message.line, Not(HasSubstr(SpectraPanel::title)));
 }
@@ -235,8 +232,7 @@ TEST_F(SpectraPanelTest, NothingThatMattersIsASentence)
   open_room(table);
   preset::Preset edited = *workbench.preset();
   for (const char* name : {"red", "floor"}) edited.scene.materials[name].reflectance = {preset::Reflectance::Type::constant, 0, "", {}};
-  workbench.apply({command::Edit{"black", edited}});
-  frames(3);
+  apply({command::Edit{"black", edited}});
   EXPECT_THAT(spectra().why_no_u, HasSubstr("0 at every wavelength"));
   EXPECT_THAT(spectra().clusters, IsEmpty());
 }

@@ -31,7 +31,6 @@ protected:
     frames(2);
     retype(key);
     press(ImGuiKey_Enter);
-    frames(2);
   }
   /// Until no run of the sweep is to come.
   void work_off()

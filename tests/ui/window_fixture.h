@@ -154,6 +154,12 @@ public:
     change(edited);
     workbench.apply({ui::command::Edit{name, edited}});
   }
+  /// Commands, and what is drawn after them.
+  void apply(const ui::Commands& commands)
+  {
+    workbench.apply(commands);
+    frames(3);
+  }
   /// Until the run is over and drawn.
   void finish()
   {
@@ -236,6 +242,7 @@ public:
   }
   /// In the View.
   void drag(int button, double dx, double dy) { drag_between(middle(), {middle()[0] + dx, middle()[1] + dy}, 5, button); }
+  /// Until what it does is drawn.
   void press(ImGuiKey key, ImGuiKey modifier = ImGuiKey_None)
   {
     if (modifier) imgui.key(modifier, true);
@@ -243,7 +250,7 @@ public:
     frame();
     imgui.key(key, false);
     if (modifier) imgui.key(modifier, false);
-    frame();
+    frames(3);
   }
   /// Closes this window's session, and opens it again in another one.
   void reopen_in(ui::Workbench& other)

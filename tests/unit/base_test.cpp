@@ -142,8 +142,7 @@ constexpr std::uint64_t gib = std::uint64_t{1} << 30;
 
 compute::DeviceInfo device(const char* type, std::uint64_t memory_bytes, std::uint64_t max_buffer_bytes)
 {
-  compute::DeviceInfo info{.name = "abacus", .type = type, .memory_bytes = memory_bytes, .max_buffer_bytes = max_buffer_bytes};
-  return info;
+  return {.name = "abacus", .type = type, .memory_bytes = memory_bytes, .max_buffer_bytes = max_buffer_bytes};
 }
 
 /// 16384 x 16384 pixels with two layers: two films of 6 GiB, of one image each, and 48 GiB on the host.

@@ -71,8 +71,6 @@ void expect_sound(const Spectrum& n, const Clustering& clustering)
   EXPECT_EQ(all, each);
 }
 
-// ---------------------------------------------------------------------------------------------------------------- figures
-
 TEST(Clusters, TotalOfNsf66)
 {
   const Spectrum n = glass("N-SF66");
@@ -107,8 +105,6 @@ TEST(Clusters, PatchesAgreeWithTheExactIntegral)
   EXPECT_LT(std::fabs(patch_sum / sum - 1), 5e-6);
 }
 
-// -------------------------------------------------------------------------------------------------------------- integrals
-
 TEST(Clusters, RefractionIntegralAboveAtAndBelowOne)
 {
   EXPECT_NEAR(refraction_integral_deg2(1), 89 * 89 / 2.0, 1e-9); // theta2 = theta1
@@ -134,8 +130,6 @@ TEST(Clusters, MixedDerivativeOfAppendixA)
       EXPECT_NEAR(measured, derived, 1e-6) << l << " " << theta;
     }
 }
-
-// ------------------------------------------------------------------------------------------------------------- any curve
 
 /// The fewest contiguous groups by dynamic programming over all divisions.
 std::size_t fewest(const std::vector<double>& theta, double h)
@@ -255,8 +249,6 @@ TEST(Clusters, BadInputIsRefused)
     EXPECT_THAT(error_of(bad, 0.05), HasSubstr("at 400 nm; expected a number above 0"));
   }
 }
-
-// ---------------------------------------------------------------------------------------------------- common refinement
 
 TEST(Clusters, CommonRefinementKeepsTogetherWhatIsTogetherEverywhere)
 {

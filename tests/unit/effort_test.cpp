@@ -209,8 +209,7 @@ TEST(Emitters, AreNoneInTheDark)
 
 TEST(Emitters, SequencesAreLongerThan32Bits)
 {
-  shared::DeviceEmitter emitter{};
-  emitter.sequence_start = 0xfffffff0u;
+  shared::DeviceEmitter emitter{.sequence_start = 0xfffffff0u};
   spectral::advance_sequence(emitter, 0x20);
   EXPECT_EQ(emitter.sequence_start, 0x10u);
   EXPECT_EQ(emitter.sequence_start_high, 1u);
@@ -223,8 +222,7 @@ std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts)
 {
   std::vector<shared::DeviceEmitter> all;
   for (const unsigned count : counts) {
-    shared::DeviceEmitter emitter{};
-    emitter.photon_count = count;
+    shared::DeviceEmitter emitter{.photon_count = count};
     all.push_back(emitter);
   }
   spectral::number_photons(all);

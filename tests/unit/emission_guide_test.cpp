@@ -210,13 +210,8 @@ TEST(LayerCells, WhereThereAreTooManyEveryPixelKeepsTheOneItSeesMost)
 
 shared::DeviceCamera camera_along_minus_z(int pixels)
 {
-  shared::DeviceCamera camera{};
-  camera.right = {1, 0, 0, 0};
-  camera.up = {0, 1, 0, 0};
-  camera.forward = {0, 0, -1, 0};
-  camera.tan_x = camera.tan_y = 0.5f;
-  camera.width = camera.height = pixels;
-  return camera;
+  return {
+      .right = {1, 0, 0, 0}, .up = {0, 1, 0, 0}, .forward = {0, 0, -1, 0}, .tan_x = 0.5f, .tan_y = 0.5f, .width = pixels, .height = pixels};
 }
 
 TEST(BentCells, CountPixelsThatMaySeeASphere)

@@ -33,15 +33,10 @@ preset::Shape room(double x, double y, double z)
 
 preset::Light lamp(const preset::LightSpectrum& spectrum, double power_w = 1)
 {
-  preset::Light light{.spectrum = spectrum, .power_w = power_w, .position = {0.3, 1.5, 0.2}};
-  return light;
+  return {.spectrum = spectrum, .power_w = power_w, .position = {0.3, 1.5, 0.2}};
 }
 
-preset::LightSpectrum illuminant(const std::string& name)
-{
-  preset::LightSpectrum s{.illuminant = name};
-  return s;
-}
+preset::LightSpectrum illuminant(const std::string& name) { return {.illuminant = name}; }
 
 /// A glass ball of radius 0.5 about the origin in a room of 6 x 4 x 5 of `wall`, under one lamp F2.
 preset::Preset ball_in_a_room(const preset::Material& wall)

@@ -26,12 +26,11 @@ public:
   bool finished() const override { return done_ >= steps_; }
   job::Progress progress() const override
   {
-    job::Progress p{.fraction = static_cast<double>(done_) / steps_,
-                    .step = done_,
-                    .steps = steps_,
-                    .work = static_cast<std::uint64_t>(done_) * 1000,
-                    .work_seconds = 10.0 * done_};
-    return p;
+    return {.fraction = static_cast<double>(done_) / steps_,
+            .step = done_,
+            .steps = steps_,
+            .work = static_cast<std::uint64_t>(done_) * 1000,
+            .work_seconds = 10.0 * done_};
   }
   job::Snapshot snapshot() override
   {
@@ -42,8 +41,7 @@ public:
       picture->rgb.push_back(static_cast<float>((sums_[0][i] + sums_[1][i]) / n));
       if (halves_ && b > 0) picture->error_draw.push_back(static_cast<float>((sums_[0][i] / a - sums_[1][i] / b) * std::sqrt(a * b) / n));
     }
-    job::Snapshot snapshot{.picture = std::move(picture), .progress = progress()};
-    return snapshot;
+    return {.picture = std::move(picture), .progress = progress()};
   }
   void save(ByteSink& to) override { to.write(std::vector<std::byte>(static_cast<std::size_t>(done_))); }
   void load(ByteSource& from) override { done_ = static_cast<int>(from.left()); }

@@ -232,8 +232,7 @@ TEST_F(SceneEnvironment, TheSceneHasIt)
 
 scene::Environment map_of(int width, std::vector<float> rgb)
 {
-  scene::Environment map{.width = width, .height = static_cast<int>(rgb.size() / 3) / width, .rgb = std::move(rgb)};
-  return map;
+  return {.width = width, .height = static_cast<int>(rgb.size() / 3) / width, .rgb = std::move(rgb)};
 }
 
 /// Faint and strong, coloured, black.

@@ -10,11 +10,7 @@ namespace nephroid::scene::shapes_test {
 using Type = preset::Shape::Type;
 constexpr double pi = std::numbers::pi;
 
-preset::Shape shape(Type type)
-{
-  preset::Shape result{.type = type};
-  return result;
-}
+preset::Shape shape(Type type) { return {.type = type}; }
 
 glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t)
 {

@@ -38,8 +38,7 @@ public:
   {
     auto picture = std::make_shared<job::Picture>();
     picture->rgb = {static_cast<float>(seed_)};
-    Snapshot snapshot{.picture = std::move(picture)};
-    return snapshot;
+    return {.picture = std::move(picture)};
   }
   void save(ByteSink&) override {}
   void load(ByteSource&) override {}

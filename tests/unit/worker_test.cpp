@@ -33,8 +33,7 @@ public:
     auto picture = std::make_shared<job::Picture>();
     picture->width = picture->height = 1;
     picture->rgb = {float(count_), 0, 0};
-    Snapshot snapshot{.picture = std::move(picture), .progress = progress()};
-    return snapshot;
+    return {.picture = std::move(picture), .progress = progress()};
   }
   void save(ByteSink&) override {}
   void load(ByteSource&) override {}
