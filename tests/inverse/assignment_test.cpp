@@ -119,9 +119,7 @@ TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement)
 TEST(Assignment, HasThePicturesOfAnObjectThatIsNotSquare)
 {
   Layout layout{.size = {120, 60}, .facets = {64, 32}, .receiver = {80, 80}, .cells = {24, 24}, .distances = {150}};
-  Picture star;
-  star.type = Picture::Type::star;
-  star.count = 5;
+  const Picture star{.type = Picture::Type::star, .count = 5};
   const std::vector<Target> targets{make_target(star, layout, FileFinder(), "star")};
   Assignment a(layout, targets, 1);
   sweep(a, 3);
@@ -177,10 +175,7 @@ struct Made {
 Made made(double smoothing)
 {
   Layout layout{.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}, .smoothing = smoothing};
-  Picture ring, disc;
-  ring.type = Picture::Type::ring;
-  const FileFinder finder;
-  const std::vector<Target> targets{make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
+  const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(layout, targets, 1);
   double before = a.residual();
   while (a.steps() < 3) {
@@ -225,11 +220,7 @@ struct Found {
 
 Found assigned(const std::vector<double>& distances, const std::vector<Target>& targets)
 {
-  Found found;
-  found.layout.facets = {64, 64};
-  found.layout.cells = {16, 16};
-  found.layout.distances = distances;
-  found.targets = targets;
+  Found found{.layout = {.facets = {64, 64}, .cells = {16, 16}, .distances = distances}, .targets = targets};
   Assignment a(found.layout, targets, 1);
   while (!a.finished()) a.advance();
   found.slopes = a.slopes();
@@ -243,8 +234,7 @@ double fight(const Conflicts& c, std::size_t j, std::size_t k) { return c.betwee
 // Light that goes straight on makes the same picture at any distance: here the whole receiver.
 TEST(Conflicts, NoneWhereStraightLightMakesBoth)
 {
-  const Found found = assigned({100, 200}, {box(0, 16), box(0, 16)});
-  EXPECT_LT(fight(found.search().of_pictures(), 0, 1), 0.05);
+  EXPECT_LT(fight(assigned({100, 200}, {box(0, 16), box(0, 16)}).search().of_pictures(), 0, 1), 0.05);
 }
 
 // Through a first receiver's left edge no light comes to a second one's right edge. A facet serves one of them: all of the light is

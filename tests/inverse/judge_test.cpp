@@ -76,11 +76,8 @@ TEST(Judge, MeetsAWallWhereItsShadowIs)
   const double ga = std::abs(inverse::facet_gradient({a, 0}, 1.5).x), gb = std::abs(inverse::facet_gradient({b, 0}, 1.5).x);
   const double shadow = (gb - ga) / 2 / (1 / a - ga);
   const scene::Bvh bvh = scene::build_bvh(solid.mesh);
-  for (const double u : {0.02 * shadow, 0.5 * shadow, 0.98 * shadow}) {
-    EXPECT_TRUE(follow(solid, bvh, 1.5, {-u, 0.1, 20}, {0, 0, -1}).met_wall) << u / shadow;
-  }
-  for (const double u : {1.02 * shadow, 2 * shadow, 0.9})
-    EXPECT_FALSE(follow(solid, bvh, 1.5, {-u, 0.1, 20}, {0, 0, -1}).met_wall) << u / shadow;
+  for (const double u : {0.02 * shadow, 0.5 * shadow, 0.98 * shadow, 1.02 * shadow, 2 * shadow, 0.9})
+    EXPECT_EQ(follow(solid, bvh, 1.5, {-u, 0.1, 20}, {0, 0, -1}).met_wall, u < shadow) << u / shadow;
 }
 
 TEST(Judge, AccountsForAllLight)
@@ -189,10 +186,7 @@ TEST(Bending, SlopesEndWhereLightRunsAlongTheFacet)
 
 Layout coarse()
 {
-  Layout layout;
-  layout.facets = {8, 6}; // a facet of 12.5 x 16.7 mm over cells of 1.56 mm
-  layout.distances = {60, 130};
-  return layout;
+  return {.facets = {8, 6}, .distances = {60, 130}}; // a facet of 12.5 x 16.7 mm over cells of 1.56 mm
 }
 
 std::vector<double> sums(const std::vector<double>& cells, int columns, bool along_x)

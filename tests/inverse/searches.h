@@ -13,10 +13,7 @@ inline Layout small_layout() { return {.facets = {32, 32}, .cells = {16, 16}, .d
 
 inline std::vector<Target> ring_and_disc(const Layout& layout)
 {
-  Picture ring, disc;
-  ring.type = Picture::Type::ring;
-  const FileFinder finder;
-  return {make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
+  return {make_target({.type = Picture::Type::ring}, layout, FileFinder(), "ring"), make_target({}, layout, FileFinder(), "disc")};
 }
 
 inline void sweep(Assignment& a, int sweeps)

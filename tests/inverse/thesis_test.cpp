@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thesis' pipeline: draws from the joint probability, what is done to pictures, annealing; and as a whole: what its stages gain, that
 // it ends, and that it goes on with the same bits.
-#include "inverse/pictures/target.h"
 #include "inverse/thesis/adjust.h"
 #include "inverse/thesis/annealer.h"
 #include "inverse/thesis/pipeline.h"
 #include "inverse/thesis/sampler.h"
 #include "inverse/uniform.h"
+#include "tests/inverse/searches.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::thesis_test {
@@ -17,19 +17,19 @@ class ThesisPipeline : public testing::Test {
 protected:
   ThesisPipeline()
   {
-    layout.facets = {32, 32}; // two pieces of work a trial
-    layout.cells = {16, 16};
-    layout.distances = {100, 200};
     settings.cycles = 3;
     settings.moves = 2;
     settings.corrections = 5;
     settings.directions = 48;
-    Picture ring, disc;
-    ring.type = Picture::Type::ring;
-    const FileFinder finder;
-    targets = {make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
   }
 
+  /// Light through the left edge of the first receiver never comes to the right edge of the second.
+  void light_edges()
+  {
+    targets.assign(2, Target(256));
+    targets[0][8 * 16 + 0] = 1;
+    targets[1][8 * 16 + 15] = 1;
+  }
   static void finish(Pipeline& pipeline)
   {
     while (!pipeline.finished()) pipeline.advance();
@@ -41,8 +41,8 @@ protected:
     return snapshot;
   }
 
-  Layout layout;
-  std::vector<Target> targets;
+  Layout layout = small_layout(); // two pieces of work a trial
+  std::vector<Target> targets = ring_and_disc(layout);
   Thesis settings;
 };
 
@@ -94,13 +94,10 @@ TEST_F(ThesisPipeline, GoesOnWithTheSameBitsInEveryStage)
   }
 }
 
-// Light through the left edge of the first receiver never comes to the right edge of the second. Such facets are counted, nothing loops or
-// becomes infinite, and the cost is the highest that there is.
+// Such facets are counted, nothing loops or becomes infinite, and the cost is the highest that there is.
 TEST_F(ThesisPipeline, CountsFacetsWithoutADirection)
 {
-  targets.assign(2, Target(256));
-  targets[0][8 * 16 + 0] = 1;
-  targets[1][8 * 16 + 15] = 1;
+  light_edges();
   settings.sampling = Thesis::Sampling::rejection;
   settings.cycles = 0;
   Pipeline pipeline(layout, targets, settings, 1);
@@ -117,9 +114,7 @@ TEST_F(ThesisPipeline, CountsFacetsWithoutADirection)
 // With extension and overshoot the same facets find their way.
 TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing)
 {
-  targets.assign(2, Target(256));
-  targets[0][8 * 16 + 0] = 1;
-  targets[1][8 * 16 + 15] = 1;
+  light_edges();
   settings.size_limit = 0;
   Pipeline pipeline(layout, targets, settings, 1);
   finish(pipeline);
@@ -132,15 +127,7 @@ TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing)
 constexpr Thesis::Sampling both[] = {Thesis::Sampling::exact, Thesis::Sampling::rejection};
 
 /// A facet in the middle, on the axis; cells of 10 mm.
-Layout one_facet()
-{
-  Layout layout;
-  layout.size = layout.receiver = {90, 90};
-  layout.facets = {1, 1};
-  layout.cells = {9, 9};
-  layout.distances = {100, 200};
-  return layout;
-}
+Layout one_facet() { return {.size = {90, 90}, .facets = {1, 1}, .receiver = {90, 90}, .cells = {9, 9}, .distances = {100, 200}}; }
 
 /// Of 9 x 9 cells: 1 in these, which are columns of the middle row.
 std::vector<double> lit(const std::vector<std::size_t>& columns)
@@ -156,8 +143,7 @@ TEST(ThesisSampler, DrawsCellsAsOftenAsTheyAreBright)
   std::vector<double> picture = lit({2, 7});
   picture[4 * 9 + 7] = 0.25;
   for (const Thesis::Sampling sampling : both) {
-    Thesis settings{.sampling = sampling};
-    settings.directions = 90; // ten a cell
+    const Thesis settings{.sampling = sampling, .directions = 90}; // ten a cell
     std::mt19937_64 random(1);
     const Draws draws = Sampler(layout, {{100, picture, 0}}, settings).draw(0, 5000, random);
     ASSERT_EQ(draws.cells.size(), 5000u);

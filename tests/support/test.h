@@ -51,9 +51,10 @@ public:
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   const fs::path& path() const { return path_; }
-  /// Writes a file into it and hands back the file's path.
+  /// Writes a file into it, or into a folder below it, and hands back the file's path.
   std::string write(const std::string& name, std::string_view bytes) const
   {
+    fs::create_directories((path_ / name).parent_path());
     write_file_whole(path_ / name, bytes);
     return (path_ / name).string();
   }

@@ -14,6 +14,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class ErrorPanelTest : public test::WindowFixture {
 protected:
+  const ErrorPanel& panel() const { return workspace.panel<ErrorPanel>(); }
   void hover(const std::array<double, 4>& area)
   {
     imgui.move(area[0] + area[2] / 2, area[1] + area[3] / 2);
@@ -24,35 +25,30 @@ protected:
 TEST_F(ErrorPanelTest, ThePlotFollowsTheRunInHand)
 {
   frames(3);
-  EXPECT_TRUE(workspace.panel<ui::ErrorPanel>().contents().runs.empty()) << "nothing is open";
+  EXPECT_TRUE(panel().contents().runs.empty()) << "nothing is open";
   run_measured();
-  const PlotContents& contents = workspace.panel<ui::ErrorPanel>().contents();
+  const PlotContents& contents = panel().contents();
   EXPECT_EQ(contents.metric, "lab_mean");
   ASSERT_THAT(contents.runs, SizeIs(1));
   EXPECT_EQ(contents.runs[0].lines->error.curve.seconds.size(), 20u);
-  const PlotRange& shown = workspace.panel<ui::ErrorPanel>().plot().shown();
+  const PlotRange& shown = panel().plot().shown();
   EXPECT_LT(shown.seconds[0], 0.01);
   EXPECT_GT(shown.seconds[1], 0.2);
   apply({command::ChooseMetric{"rel_mse"}});
-  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "rel_mse");
+  EXPECT_EQ(panel().contents().metric, "rel_mse");
   apply({command::ChooseMetric{"flip"}});
-  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "lab_mean") << "no run has that one";
+  EXPECT_EQ(panel().contents().metric, "lab_mean") << "no run has that one";
 }
 
 TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
 {
-  auto nothing = std::make_shared<job::History>();
-  auto no_rows = falling_history(0);
-  auto one_row = falling_history(1);
-  auto all_nan = falling_history(5);
-  for (job::HistoryRow& row : all_nan->rows) row.errors = {nan, nan, nan};
-  auto same = falling_history(5); // all at one time and of one error
-  for (job::HistoryRow& row : same->rows) {
-    row.seconds = 1;
-    row.errors = {1, 1, 1};
-  }
-  auto zero = falling_history(5);
-  for (job::HistoryRow& row : zero->rows) row.errors = {0, 0, 0};
+  const auto all_of = [](double error) {
+    auto history = falling_history(5);
+    for (job::HistoryRow& row : history->rows) row.errors = {error, error, error};
+    return history;
+  };
+  auto same = all_of(1); // and all at one time
+  for (job::HistoryRow& row : same->rows) row.seconds = 1;
   auto psnr = falling_history(5);
   psnr->columns = {"psnr_db", "iw_ssim", "estimated_lab_mean"};
   psnr->error_column = "psnr_db";
@@ -60,17 +56,18 @@ TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
   floor->noise_floor = {0.02, nan, nan};
   floor->target = 0.03;
   runs.steps = 2;
-  for (const auto& history : {nothing, no_rows, one_row, all_nan, same, zero, psnr, floor}) {
+  for (const auto& history :
+       {std::make_shared<job::History>(), falling_history(0), falling_history(1), all_of(nan), same, all_of(0), psnr, floor}) {
     runs.history = [&](int) { return history; };
     run_through();
     apply({command::PinRun{}});
-    hover(workspace.panel<ui::ErrorPanel>().plot().area());
+    hover(panel().plot().area());
     EXPECT_TRUE(workbench.messages().empty());
     EXPECT_EQ(workbench.run().error_history(), history);
   }
-  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().target, 0.03);
+  EXPECT_EQ(panel().contents().target, 0.03);
   apply({command::ChooseMetric{"psnr_db"}});
-  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "psnr_db");
+  EXPECT_EQ(panel().contents().metric, "psnr_db");
   EXPECT_TRUE(workbench.messages().empty());
 }
 
@@ -90,25 +87,24 @@ TEST_F(ErrorPanelTest, TenThousandRowsAreDrawnWithFewPoints)
 TEST_F(ErrorPanelTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack)
 {
   run_measured();
-  const PlotRange before = workspace.panel<ui::ErrorPanel>().plot().shown();
-  hover(workspace.panel<ui::ErrorPanel>().plot().area());
+  const PlotRange before = panel().plot().shown();
+  hover(panel().plot().area());
   for (int i = 0; i < 3; ++i) {
     imgui.wheel(1);
     frame();
   }
   frames(2);
-  EXPECT_FALSE(workspace.panel<ui::ErrorPanel>().plot().follows());
-  EXPECT_GT(workspace.panel<ui::ErrorPanel>().plot().shown().seconds[0], before.seconds[0]);
+  EXPECT_FALSE(panel().plot().follows());
+  EXPECT_GT(panel().plot().shown().seconds[0], before.seconds[0]);
   EXPECT_EQ(camera().position[2], 4) << "the wheel over the plot is the plot's";
   for (int click = 0; click < 2; ++click) {
     imgui.button(0, true);
     frame();
-    imgui.button(0, false);
-    frame();
+    let_go();
   }
   frames(2);
-  EXPECT_TRUE(workspace.panel<ui::ErrorPanel>().plot().follows());
-  EXPECT_NEAR(workspace.panel<ui::ErrorPanel>().plot().shown().seconds[0], before.seconds[0], 1e-9);
+  EXPECT_TRUE(panel().plot().follows());
+  EXPECT_NEAR(panel().plot().shown().seconds[0], before.seconds[0], 1e-9);
 }
 
 TEST(ErrorLines, HaveAMetricsErrorItsEstimateAndTheirSlopes)

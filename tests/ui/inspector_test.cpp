@@ -25,17 +25,19 @@ protected:
     imgui.key(ImGuiMod_Alt, false);
     frames(2);
   }
-  void click_on(const std::string& widget)
-  {
-    click(inspector().place_of(widget).value());
-    frames(2);
-  }
+  void click_on(const std::string& widget) { click_in(inspector(), widget, 2); }
   PixelRow row(const std::string& name)
   {
     for (const PixelRow& row : pixel_rows(context(), pixel().value()))
       if (row.name == name) return row;
     ADD_FAILURE() << "no row " << name;
     return {};
+  }
+  /// With a switch of the engine on.
+  void run_through_with(const std::string& name)
+  {
+    std::string text = test::preset_text;
+    run_through(text.insert(text.find("\"stop\""), "\"spectral\": {\"" + name + "\": true}, "));
   }
   bool has_statistics()
   {
@@ -77,8 +79,7 @@ TEST_F(InspectorTest, AKeyTakesThePixelInTheMiddleAndLetsItGo)
   EXPECT_THAT(pixel(), Optional(Pixel{32, 24}));
   press(ImGuiKey_I);
   EXPECT_FALSE(pixel());
-  Look near{.fit = false, .zoom = 8, .centre = {10.5, 1e9}};
-  workbench.apply({command::SetLook{near}});
+  workbench.apply({command::SetLook{{.fit = false, .zoom = 8, .centre = {10.5, 1e9}}}});
   press(ImGuiKey_I);
   EXPECT_THAT(pixel(), Optional(Pixel{10, 47}));
 }
@@ -120,8 +121,7 @@ TEST_F(InspectorTest, APixelOutsideOfThePictureIsSaidAndComesBack)
 
 TEST_F(InspectorTest, TheSpectrumOfThePixelIsShownAndCopied)
 {
-  run_through(
-      std::string(test::preset_text).replace(std::string(test::preset_text).find("\"stop\""), 0, "\"spectral\": {\"relight\": true}, "));
+  run_through_with("relight");
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
   ASSERT_TRUE(until([&] { return workbench.run().spectrum() != nullptr; }));
   EXPECT_EQ(workbench.run().spectrum()->pixel, (Pixel{3, 4}));
@@ -150,8 +150,7 @@ TEST_F(InspectorTest, AButtonKeepsSpectraAsOneEdit)
 
 TEST_F(InspectorTest, SpectraThatContradictAnotherFieldAreNotOffered)
 {
-  run_through(
-      std::string(test::preset_text).replace(std::string(test::preset_text).find("\"stop\""), 0, "\"spectral\": {\"indirect\": true}, "));
+  run_through_with("indirect");
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
   ASSERT_TRUE(until([&] { return workbench.run().spectrum() && inspector().place_of("keep spectra"); }));
   click_on("keep spectra");

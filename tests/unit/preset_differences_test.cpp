@@ -99,31 +99,35 @@ std::string refusal(const Preset& preset)
   return test::refusal_of([&] { preset::command_line(preset); });
 }
 
-TEST(PresetDifferences, TheCommandLineMakesTheEditedPreset)
+/// Calls check(name, edited) for shipped presets after random edits.
+void for_edited_presets(std::uint64_t seed, const std::function<void(const std::string& name, const Preset& edited)>& check)
 {
   const auto shipped = preset::shipped_presets();
-  Edits edits(1);
+  Edits edits(seed);
+  for (std::size_t i = 0; i < 2 * shipped.size(); ++i) {
+    const std::string& name = shipped[i % shipped.size()].name;
+    const Preset opened = preset::read_presets(name, {"sweep=null"}).front();
+    const Preset other = preset::read_presets(shipped[(i + 7 * (i / shipped.size()) + 1) % shipped.size()].name).front();
+    if (const auto edited = edits.edited(opened, other)) check(name, *edited);
+  }
+}
+
+TEST(PresetDifferences, TheCommandLineMakesTheEditedPreset)
+{
   int said = 0, refused = 0;
-  for (int round = 0; round < 2; ++round)
-    for (std::size_t i = 0; i < shipped.size(); ++i) {
-      Preset opened = preset::read_presets(shipped[i].name, {"sweep=null"}).front();
-      const Preset other = preset::read_presets(shipped[(i + 7 * static_cast<std::size_t>(round) + 1) % shipped.size()].name).front();
-      const auto wanted = edits.edited(opened, other);
-      if (!wanted) continue;
-      try {
-        const preset::Recipe recipe = preset::recipe_of(*wanted);
-        EXPECT_EQ(recipe.name, shipped[i].name);
-        ASSERT_TRUE(same(preset::read_preset(recipe.name, recipe.overrides), *wanted)) << preset::to_json(*wanted);
-        ++said;
-      } catch (const Error& error) {
-        EXPECT_THAT(error.line(), HasSubstr("save the preset first"));
-        ++refused;
-      }
+  for_edited_presets(1, [&](const std::string& name, const Preset& wanted) {
+    try {
+      const preset::Recipe recipe = preset::recipe_of(wanted);
+      EXPECT_EQ(recipe.name, name);
+      ASSERT_TRUE(same(preset::read_preset(recipe.name, recipe.overrides), wanted)) << preset::to_json(wanted);
+      ++said;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.line(), HasSubstr("save the preset first"));
+      ++refused;
     }
+  });
   EXPECT_GT(said, 50);
   EXPECT_LT(refused, said / 20) << "only another engine cannot be said";
-  RecordProperty("said", said);
-  RecordProperty("refused", refused);
 }
 
 TEST(PresetDifferences, EachChangedFieldIsOneOverride)
@@ -173,31 +177,23 @@ TEST(PresetDifferences, WhatNoCommandLineCanSayIsRefusedWithTheWayOn)
 TEST(PresetDifferences, AChildFileReadsBackEqualOverRandomEdits)
 {
   const test::TemporaryFolder folder;
-  const auto shipped = preset::shipped_presets();
-  Edits edits(2);
   int children = 0, whole = 0;
-  for (int round = 0; round < 2; ++round)
-    for (std::size_t i = 0; i < shipped.size(); ++i) {
-      const Preset opened = preset::read_presets(shipped[i].name, {"sweep=null"}).front();
-      const Preset other = preset::read_presets(shipped[(i + 5 * static_cast<std::size_t>(round) + 1) % shipped.size()].name).front();
-      const auto wanted = edits.edited(opened, other);
-      if (!wanted) continue;
-      const fs::path file = folder.path() / "child.json";
-      const preset::FileText text = preset::file_text(*wanted, shipped[i].name, file);
-      write_file_whole(file, text.json);
-      const Preset back = preset::read_preset(file.string());
-      ASSERT_TRUE(same(back, preset::moved_to_file(*wanted, file))) << shipped[i].name << "\n" << text.json;
-      EXPECT_EQ(text.note.empty(), text.has_parent);
-      EXPECT_EQ(Json::parse(text.json).value("parent", ""), text.has_parent ? shipped[i].name : "");
-      ++(text.has_parent ? children : whole);
-      if (!text.has_parent) continue;
-      // And once more over the same parent, from the file that was written.
+  for_edited_presets(2, [&](const std::string& name, const Preset& wanted) {
+    const fs::path file = folder.path() / "child.json";
+    const preset::FileText text = preset::file_text(wanted, name, file);
+    write_file_whole(file, text.json);
+    const Preset back = preset::read_preset(file.string());
+    ASSERT_TRUE(same(back, preset::moved_to_file(wanted, file))) << name << "\n" << text.json;
+    EXPECT_EQ(text.note.empty(), text.has_parent);
+    EXPECT_EQ(Json::parse(text.json).value("parent", ""), text.has_parent ? name : "");
+    ++(text.has_parent ? children : whole);
+    // And once more over the same parent, from the file that was written.
+    if (text.has_parent) {
       EXPECT_EQ(preset::file_text(back, preset::own_parent(file), file).json, text.json);
     }
+  });
   EXPECT_GT(children, 50);
   EXPECT_LT(whole, children / 20) << "only another engine cannot be said";
-  RecordProperty("children", children);
-  RecordProperty("whole", whole);
 }
 
 TEST(PresetDifferences, AChildHoldsOnlyWhatDiffers)

@@ -95,13 +95,7 @@ TEST(PresetOverrides, TakeNumbersAsPeopleTypeThem)
 class PresetFiles : public testing::Test {
 protected:
   test::TemporaryFolder folder;
-  std::string write(const std::string& name, const std::string& text) const
-  {
-    const fs::path file = folder.path() / name;
-    fs::create_directories(file.parent_path());
-    write_file_whole(file, text);
-    return file.string();
-  }
+  std::string write(const std::string& name, const std::string& text) const { return folder.write(name, text); }
 };
 
 TEST_F(PresetFiles, AChildTakesOverItsParent)
