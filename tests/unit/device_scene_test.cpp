@@ -3,14 +3,8 @@
 // and mirrors take alike; and the plan's reasons.
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "plan/plan.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/clusters/clusters.h"
-#include "spectral/engine.h"
-#include "spectral/tables/run_tables.h"
-#include "tests/support/presets.h"
-#include "tests/support/test.h"
+#include "tests/support/plans.h"
 #include "tracing/scales.h"
 #include "tracing/targets.h"
 #include "tracing/wavelength_tables.h"
@@ -89,12 +83,6 @@ TEST(Targets, TheShadowOfSpheresInAClosedForm)
   EXPECT_NEAR(tracing::mean_shadow({{{0, 0, -1}, 1}, {{0, 0, 1}, 1}}) / mean, 1, 0.02);
 }
 
-spectral::RunTables tables_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {});
-}
-
 TEST(WavelengthTables, AddUpToTheWholeSpectrum)
 {
   preset::Material coloured = glass(1.5);
@@ -159,10 +147,7 @@ TEST(RunTables, RefuseMoreMediaThanAPathCanCarry)
 
 TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass)
 {
-  const auto paths = [](const preset::Preset& p) {
-    const scene::Scene scene = scene::load_scene(p);
-    return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {}).eye_paths;
-  };
+  const auto paths = [](const preset::Preset& p) { return tables_of(p).eye_paths; };
   preset::Shape ball{.radius = 1};
   preset::Preset p = scene_with(ball, glass(1.5));
   p.scene.camera = {.position = {0, 0, 4}, .target = {0, 0, 0}, .fov_deg = 90, .resolution = {128, 128}};
@@ -187,12 +172,6 @@ bool planned_to_run(const plan::Plan& plan, const std::string& name, std::string
     }
   ADD_FAILURE() << "no pass " << name;
   return false;
-}
-
-plan::Plan plan_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
 }
 
 TEST(SpectralPlan, LeavesOutWhatASceneDoesNotNeedAndSaysWhy)

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the photons of a pass are dealt to lights and clusters: after spectral.effort, by measured variance, and as numbered emitters.
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/effort/emitters.h"
-#include "spectral/effort/importance.h"
-#include "spectral/engine.h"
-#include "spectral/tables/run_tables.h"
-#include "tests/support/presets.h"
+#include "tests/support/plans.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::effort_test {
@@ -34,12 +29,6 @@ preset::Preset lit_ball(Effort effort)
   p.scene.lights[1].spectrum.illuminant = "A";
   p.scene.lights[1].power_w = 3;
   return p;
-}
-
-RunTables tables_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {});
 }
 
 /// [light][cluster] photons of a pass.
@@ -92,9 +81,7 @@ TEST(DealtEffort, FollowsTheImportanceOfClusters)
       preset::Preset p = lit_ball(effort);
       spectral::settings(p).importance.cluster = which;
       const RunTables tables = tables_of(p);
-      const scene::Scene scene = scene::load_scene(p);
-      const optics::Spectrum u = spectral::wavelength_importance(spectral::settings(p), scene, scene::build_bvh(scene.geometry)).u;
-      EXPECT_EQ(tables.importance, spectral::cluster_importance(u, tables.wavelengths.clusters, which));
+      EXPECT_EQ(tables.importance, spectral::cluster_importance(importance_of(p).u, tables.wavelengths.clusters, which));
       EXPECT_LT(*std::min_element(tables.importance.begin(), tables.importance.end()), 0.9);
       expect_clusters_in_proportion(tables, tables.importance);
     }
@@ -148,9 +135,8 @@ TEST(DealtEffort, IsNotAskedForWhereThereIsNoCaustic)
 TEST(DealtEffort, IsInThePlan)
 {
   const auto reason_of = [](Effort effort, bool runs) {
-    const preset::Preset p = lit_ball(effort);
-    const scene::Scene scene = scene::load_scene(p);
-    for (const plan::Pass& pass : spectral::make_plan(p, scene, scene::build_bvh(scene.geometry)).passes)
+    const plan::Plan plan = plan_of(lit_ball(effort));
+    for (const plan::Pass& pass : plan.passes)
       if (pass.name == "importance") {
         EXPECT_EQ(pass.runs, runs);
         return pass.reason;

@@ -3,11 +3,7 @@
 // solid angles are known.
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
-#include "spectral/effort/importance.h"
-#include "tests/support/presets.h"
-#include "tests/support/test.h"
+#include "tests/support/plans.h"
 
 namespace nephroid::importance_test {
 
@@ -48,12 +44,6 @@ preset::Preset ball_in_a_room(const preset::Material& wall)
   p.scene.objects = {object("room", room(6, 4, 5), "wall"), object("ball", check::ball(0.5), "glass")};
   p.scene.lights = {lamp(illuminant("F2"))};
   return p;
-}
-
-WavelengthImportance importance_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::wavelength_importance(spectral::settings(p), scene, scene::build_bvh(scene.geometry));
 }
 
 /// The product of spectra divided by its largest value.
