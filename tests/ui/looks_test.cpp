@@ -213,14 +213,11 @@ TEST_F(LooksWithReference, TheDifferenceIsThatOfTheLayer)
 
 TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
 {
-  preset::Preset edited = *workbench.preset();
-  edited.scene.camera.position = {1.5, -0.25, 3};
-  edited.scene.camera.fov_deg = 31;
+  edit([](preset::Preset& p) { p.scene.camera.position = {1.5, -0.25, 3}, p.scene.camera.fov_deg = 31; });
   const auto copied = [&](const char* name) {
     action(name).run(context());
     return std::string(ImGui::GetClipboardText());
   };
-  workbench.apply({command::Edit{"camera", edited}});
   EXPECT_THAT(copied("Copy camera as JSON"), HasSubstr("\"fov_deg\": 31"));
   // Every --set of the text, without its quotes, makes the camera of a preset that had another.
   preset::Overrides overrides;
@@ -230,7 +227,7 @@ TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
     overrides.push_back(text.substr(at + 1, end - at - 1));
     at = text.find('\'', end + 1);
   }
-  EXPECT_EQ(preset::parse_preset(test::preset_text, "again", overrides).scene.camera, edited.scene.camera);
+  EXPECT_EQ(preset::parse_preset(test::preset_text, "again", overrides).scene.camera, camera());
 }
 
 TEST(LooksOfASession, AreKept)
