@@ -193,8 +193,7 @@ TEST(Relighting, TheDrawOfTheErrorHasThePicturesScatter)
     const auto job = job_of(p);
     while (job->progress().step < 2) job->step();
     ASSERT_TRUE(job->adopt(other));
-    while (!job->finished()) job->step();
-    const job::Snapshot snapshot = job->snapshot();
+    const job::Snapshot snapshot = render(*job);
     ASSERT_FALSE(snapshot.picture->error_draw.empty());
     for (const float d : snapshot.picture->error_draw) draws += double(d) * d / runs;
     pictures.push_back(snapshot.picture->rgb);
@@ -220,9 +219,7 @@ TEST(Relighting, ACheckpointGoesOnToTheSameBits)
   const std::vector<std::byte> saved = test::saved(*straight);
   const auto resumed = job_of(other);
   test::load(*resumed, saved);
-  while (!straight->finished()) straight->step();
-  while (!resumed->finished()) resumed->step();
-  const job::Snapshot a = straight->snapshot(), b = resumed->snapshot();
+  const job::Snapshot a = render(*straight), b = render(*resumed);
   EXPECT_EQ(a.picture->rgb, b.picture->rgb);
   EXPECT_EQ(spectral::energy_of(a).emitted_w, spectral::energy_of(b).emitted_w);
 }

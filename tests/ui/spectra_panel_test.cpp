@@ -217,7 +217,7 @@ TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
   EXPECT_THAT(spectra().lights[0].error, HasSubstr("D65"));
   edit([](preset::Preset& p) { p.scene.lights.clear(); });
   frames(3);
-  edit([](preset::Preset& p) { p.scene.lights = {{}}, p.scene.materials["glass"].dispersion.coefficients = {-1}; });
+  edit([](preset::Preset& p) { p.scene.lights = {preset::Light{}}, p.scene.materials["glass"].dispersion.coefficients = {-1}; });
   frames(3);
   EXPECT_NE(spectra().why_no_u, "");
   for (const Message& message : workbench.messages()) EXPECT_THAT(message.line, Not(HasSubstr(SpectraPanel::title)));
