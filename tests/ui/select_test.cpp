@@ -53,8 +53,7 @@ TEST_F(Select, AClickSelectsWhatIsThere)
 TEST_F(Select, ADragOrbitsAndSelectsNothing)
 {
   open();
-  const Point from = at(-0.5, 0, 0);
-  drag_between(from, {from[0] + 40, from[1]});
+  drag_by(at(-0.5, 0, 0), 40);
   EXPECT_EQ(selected(), nothing);
   EXPECT_EQ(undo(), "orbit");
 }
@@ -198,8 +197,7 @@ TEST_F(Select, ALightIsMovedAndAimed)
 {
   open();
   select(spot);
-  Point tip = handle(1);
-  drag_between(tip, {tip[0] + 30, tip[1]});
+  drag_by(handle(1), 30);
   EXPECT_GT(scene().lights[1].position[0], -1);
   EXPECT_EQ(scene().lights[1].position[1], 1);
   press(ImGuiKey_U);
@@ -282,8 +280,7 @@ TEST_F(Select, AMoveIsAdoptedByTheEnvironmentsRun)
   open(test::ball_text("environment"));
   select(ball);
   const int made = runs.made;
-  const Point tip = handle(1);
-  drag_between(tip, {tip[0] + 60, tip[1]}, 30);
+  drag_by(handle(1), 60, 0, 30);
   EXPECT_GT(scene().objects[0].transform.translate[0], -0.4);
   EXPECT_TRUE(until_current());
   EXPECT_EQ(runs.made, made) << "no run was started again";

@@ -240,6 +240,7 @@ public:
     for (int i = 1; i <= steps; ++i) move({from[0] + (to[0] - from[0]) * i / steps, from[1] + (to[1] - from[1]) * i / steps});
     let_go(button);
   }
+  void drag_by(const ui::Point& from, double x, double y = 0, int steps = 10) { drag_between(from, {from[0] + x, from[1] + y}, steps); }
   /// In the View.
   void drag(int button, double dx, double dy) { drag_between(middle(), {middle()[0] + dx, middle()[1] + dy}, 5, button); }
   /// Until what it does is drawn.

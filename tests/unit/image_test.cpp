@@ -110,10 +110,8 @@ TEST_F(Pictures, AreTurnedAsTheirFileSays)
   EXPECT_EQ(turned.width, 1);
   ASSERT_EQ(turned.height, 3);
   EXPECT_EQ(turned.data, as_seen.data);
-  const Image mirrored = [&] {
-    write_file_whole(folder / "mirrored.tif", tiff(3, 1, 2, "\x10\x20\x30"));
-    return read_image(folder / "mirrored.tif");
-  }();
+  write_file_whole(folder / "mirrored.tif", tiff(3, 1, 2, "\x10\x20\x30"));
+  const Image mirrored = read_image(folder / "mirrored.tif");
   EXPECT_EQ(mirrored.data, (std::vector<float>{as_seen.data[2], as_seen.data[1], as_seen.data[0]}));
 }
 
