@@ -4,8 +4,6 @@
 #include "tests/support/program_test.h"
 #include "tests/support/x_display.h"
 
-#include <nlohmann/json.hpp>
-
 namespace nephroid::engine_test {
 
 using nlohmann::json;
@@ -22,8 +20,6 @@ protected:
     more.insert(more.begin(), {"run", "g.json", "-o", name});
     return run(more);
   }
-  std::string bytes(const std::string& file) const { return nephroid::read_file(folder / file); }
-  json of(const std::string& file) const { return json::parse(bytes(file)); }
 };
 
 TEST_F(GradientEngine, RunsAndWritesWhateverItFound)

@@ -7,16 +7,6 @@
 #include <unistd.h>
 
 namespace nephroid::fuzz {
-namespace {
-
-double processor_seconds()
-{
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-} // namespace
 
 void finding(const std::string& what)
 {
@@ -87,6 +77,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size)
 {
   using namespace nephroid::fuzz;
+  using nephroid::test::processor_seconds;
   const double began = processor_seconds();
   accepts([&] { read({reinterpret_cast<const char*>(bytes), size}); });
   if (const double seconds = processor_seconds() - began; seconds > 1) finding(fmt::format("{:.1f} s of processor time", seconds));

@@ -8,8 +8,6 @@
 #include "tests/support/x_display.h"
 
 #include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
-
 namespace nephroid::run_test {
 
 using nlohmann::json;
@@ -26,8 +24,6 @@ protected:
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     return ended;
   }
-  std::string bytes(const std::string& file) const { return read_file(folder / file); }
-  json of(const std::string& file) const { return json::parse(bytes(file)); }
 };
 
 TEST_F(InverseRun, CastsTheShapes)

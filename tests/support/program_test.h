@@ -3,6 +3,8 @@
 #pragma once
 #include "tests/support/child.h"
 
+#include <nlohmann/json.hpp>
+
 namespace nephroid::test {
 
 class ProgramTest : public testing::Test {
@@ -17,7 +19,18 @@ protected:
     return nephroid(arguments, folder, logs, environment);
   }
   void write(const std::string& name, std::string_view bytes) const { std::ofstream(folder / name, std::ios::binary) << bytes; }
+  std::string bytes(const std::string& file) const { return read_file(folder / file); }
+  nlohmann::json of(const std::string& file) const { return nlohmann::json::parse(bytes(file)); }
 };
+
+/// What a verb prints with --json where it prints an object a line. Throws nlohmann::json::parse_error for a line that is no JSON.
+inline std::vector<nlohmann::json> json_lines(const std::string& text)
+{
+  std::vector<nlohmann::json> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(nlohmann::json::parse(line));
+  return lines;
+}
 
 /// A command line that is refused.
 struct Wrong {

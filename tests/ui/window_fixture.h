@@ -16,13 +16,7 @@
 
 namespace nephroid::test {
 
-/// Processor time of this thread: other work of the machine does not count.
-inline double thread_ms()
-{
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
+inline double thread_ms() { return 1e3 * processor_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
 class Headless {
 public:
