@@ -186,12 +186,12 @@ TEST_F(Smoothing, knows_what_a_window_shows)
 /// What a ball shows is torn apart: there the ball itself says how far light is spread, as its picture is no more even than that.
 TEST_F(Smoothing, spreads_within_curved_glass)
 {
-  const scene::Scene scene =
+  const scene::Scene glass =
       two_walls(shape_object("ball", preset::Shape::Type::sphere, "glass", {.scale = {8, 8, 8}, .translate = {0, -4, 0}}), -20);
-  spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), true);
+  spectral::Smoothing within(glass, scene::build_bvh(glass.geometry), true);
   Photons photons = scatter([](int, int) { return 1.0; }, 11);
   const double variance = moments(photons.rgb, 16, size - 16, 16).variance, power = sum(photons.rgb);
-  smoothing.spread(photons.rgb, photons.error_draw);
+  within.spread(photons.rgb, photons.error_draw);
   EXPECT_LT(moments(photons.rgb, 16, size - 16, 16).variance, variance / 4);
   EXPECT_NEAR(sum(photons.rgb), power, 1e-5 * power);
 }
@@ -277,9 +277,9 @@ TEST_F(Smoothing, leaves_a_picture_of_one_pixel_alone)
   preset::Preset p;
   p.source = "p.json";
   p.scene.camera.resolution = {1, 1};
-  const scene::Scene scene = scene::load_scene(p);
+  const scene::Scene empty = scene::load_scene(p);
   std::vector<float> rgb{3, -1, 2}, draw{1, 1, 1};
-  spectral::Smoothing(scene, scene::build_bvh(scene.geometry), true).spread(rgb, draw);
+  spectral::Smoothing(empty, scene::build_bvh(empty.geometry), true).spread(rgb, draw);
   EXPECT_EQ(rgb, (std::vector<float>{3, -1, 2}));
   EXPECT_EQ(draw, (std::vector<float>{1, 1, 1}));
 }
