@@ -216,7 +216,7 @@ TEST(Metrics, AMaskSelectsItsPixelsAndNoOthers)
       if (mask[static_cast<std::size_t>(y * 30 + x)] == 0) a.at(x, y, 1) += 1000;
   const Metrics m = quick(a, b, mask);
   EXPECT_EQ(m.pixels, 13u * 7u);
-  for (std::size_t i = 0; i < named(m).size(); ++i) EXPECT_DOUBLE_EQ(named(m)[i].second, named(wanted)[i].second) << named(m)[i].first;
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_DOUBLE_EQ(named(m)[i].second, named(wanted)[i].second) << named(m)[i].first; // the quick ones
 }
 
 TEST(Metrics, SeveralMasksAreTheSameAsOneByOne)
