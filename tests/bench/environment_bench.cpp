@@ -6,14 +6,9 @@
 #include "environment/engine.h"
 #include "preset/read.h"
 #include "scene/scene.h"
+#include "tests/support/standard.h"
 
 #include <benchmark/benchmark.h>
-
-#include <chrono>
-#include <cstdlib>
-#include <functional>
-#include <memory>
-#include <string>
 
 namespace {
 

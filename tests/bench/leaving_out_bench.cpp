@@ -11,23 +11,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <array>
-#include <ctime>
-#include <limits>
-#include <memory>
-#include <vector>
-
 namespace {
 
 using namespace nephroid;
 
-double processor_seconds()
-{
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+using test::processor_seconds;
 
 /// One of the two ways to make the picture.
 class Side {

@@ -8,12 +8,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
-#include <numbers>
-#include <random>
-#include <span>
-#include <vector>
-
 namespace {
 
 using namespace nephroid;

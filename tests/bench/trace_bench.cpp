@@ -9,12 +9,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdlib>
-#include <ctime>
-#include <thread>
-
 namespace {
 
 using namespace nephroid;
@@ -98,15 +92,10 @@ struct Seconds {
 template <class F>
 Seconds measure(const F& f)
 {
-  const auto processor = [] {
-    timespec now = {};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-  };
   const auto start = std::chrono::steady_clock::now();
-  const double processor_start = processor();
+  const double processor_start = test::processor_seconds();
   f();
-  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), processor() - processor_start};
+  return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), test::processor_seconds() - processor_start};
 }
 
 enum class Rays { primary, bounce, random };

@@ -4,8 +4,6 @@
 #include "tests/support/program_test.h"
 #include "tests/support/x_display.h"
 
-#include <nlohmann/json.hpp>
-
 namespace nephroid::engine_test {
 
 using nlohmann::json;
@@ -22,8 +20,6 @@ protected:
     more.insert(more.begin(), {"run", "g.json", "-o", name});
     return run(more);
   }
-  std::string bytes(const std::string& file) const { return nephroid::read_file(folder / file); }
-  json of(const std::string& file) const { return json::parse(bytes(file)); }
 };
 
 TEST_F(GradientEngine, RunsAndWritesWhateverItFound)
@@ -46,7 +42,7 @@ TEST_F(GradientEngine, RunsAndWritesWhateverItFound)
   EXPECT_EQ(bytes("out/gradient.txt"), "32 16\n");
   EXPECT_THAT(bytes("out/settling.csv"), HasSubstr("sweep,standard_deviation\n1,0.2\n"));
   EXPECT_THAT(bytes("out/report.html"), HasSubstr("standard_deviation"));
-  EXPECT_TRUE(std::filesystem::exists(folder / "out/upside_down.exr") && std::filesystem::exists(folder / "out/upside_down.png"));
+  EXPECT_TRUE(fs::exists(folder / "out/upside_down.exr") && fs::exists(folder / "out/upside_down.png"));
 }
 
 // The noise of a pixel after p sweeps is noise / sqrt(16 p), the same in three channels: its mean square is that of 0.2^2 / 16 / 64.

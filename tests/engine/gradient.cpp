@@ -3,13 +3,7 @@
 
 #include "base/error.h"
 #include "preset/settings_type.h"
-
-#include <fmt/format.h>
-
-#include <array>
-#include <cmath>
-#include <random>
-#include <span>
+#include "tests/support/standard.h"
 
 namespace nephroid::gradient {
 
@@ -58,14 +52,12 @@ public:
 
   job::Progress progress() const override
   {
-    job::Progress p;
-    p.fraction = static_cast<double>(done_) / passes_;
-    p.step = done_;
-    p.steps = passes_;
-    p.work = static_cast<std::uint64_t>(done_) * static_cast<std::uint64_t>(settings_.samples_per_pass) * sums_[0].size();
-    p.work_seconds = 1e-3 * static_cast<double>(done_);
-    p.units = {.step = "sweep", .steps = "sweeps", .work = "sample", .works = "samples"};
-    return p;
+    return {.fraction = static_cast<double>(done_) / passes_,
+            .step = done_,
+            .steps = passes_,
+            .work = static_cast<std::uint64_t>(done_) * static_cast<std::uint64_t>(settings_.samples_per_pass) * sums_[0].size(),
+            .work_seconds = 1e-3 * static_cast<double>(done_),
+            .units = {.step = "sweep", .steps = "sweeps", .work = "sample", .works = "samples"}};
   }
 
   job::Snapshot snapshot() override
@@ -81,8 +73,7 @@ public:
           picture->error_draw.push_back(static_cast<float>((sums_[0][i] / a - sums_[1][i] / b) * std::sqrt(a * b) / (a + b)));
       }
     picture->layers.push_back({"gradient", picture->rgb});
-    job::Snapshot snapshot;
-    snapshot.picture = picture;
+    job::Snapshot snapshot{.picture = picture};
     snapshot.pictures.push_back({"upside_down", picture});
     snapshot.progress = progress();
     snapshot.scalars.push_back({"gradient", "level", settings_.level});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Baked spheres against closed forms and against rays in double precision: a ball of glass, of nothing, a mirror; energy; a turned object;
 // colours. Bakes on disk whose header makes no sense: refused before anything is allocated for them.
-#include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "environment/bake/bake.h"
 #include "environment/bake/bake_file.h"
@@ -9,8 +8,7 @@
 #include "optics/colour.h"
 #include "optics/fresnel.h"
 #include "tests/environment/bakes.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace nephroid::bake_test {
 

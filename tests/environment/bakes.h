@@ -7,9 +7,6 @@
 #include "preset/read.h"
 #include "tests/support/test_kernels.h"
 
-#include <string>
-#include <vector>
-
 namespace nephroid::test {
 
 /// One for all tests of a program: opening a device takes a second.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Baked spheres under lights, on a device: bakes made by formula, looked up where the formula says what is there.
 #include "environment/light/caustics.h"
-#include "tests/support/test.h"
 
 #include "environment/bake/bake.h"
 #include "scene/bvh.h"

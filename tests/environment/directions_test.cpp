@@ -7,7 +7,6 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "tests/environment/views.h"
-#include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::directions_test {

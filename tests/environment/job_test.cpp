@@ -3,7 +3,6 @@
 // bad input.
 #include "environment/bake/bake_file.h"
 #include "tests/environment/views.h"
-#include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::job_test {

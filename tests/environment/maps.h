@@ -2,14 +2,9 @@
 // Latitude-longitude maps made by formula, and what their light is by sums over texels.
 #pragma once
 #include "scene/environment.h"
+#include "tests/support/test.h"
 
 #include <glm/glm.hpp>
-
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <string>
-#include <vector>
 
 namespace nephroid::test {
 

@@ -9,18 +9,9 @@
 #pragma once
 #include "base/parallel.h"
 #include "optics/fresnel.h"
+#include "tests/support/test.h"
 
 #include <glm/glm.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <random>
-#include <vector>
 
 namespace nephroid::test {
 

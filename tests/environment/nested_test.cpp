@@ -5,7 +5,7 @@
 #include "optics/fresnel.h"
 #include "scene/scene.h"
 #include "tests/environment/bakes.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::nested_test {
 

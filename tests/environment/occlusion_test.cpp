@@ -4,7 +4,6 @@
 #include "environment/occlusion/surroundings.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
-#include "tests/support/test.h"
 
 namespace nephroid::occlusion_test {
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Picture files that image/image.h does not write: their bytes, of one grey all over.
 #pragma once
-#include <cstdint>
-#include <cstring>
-#include <string>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

@@ -8,7 +8,6 @@
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"
-#include "tests/support/test.h"
 
 namespace nephroid::samples_test {
 

@@ -7,9 +7,6 @@
 #include "scene/scene.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"
-#include "tests/support/test.h"
-
-#include <cstdio>
 
 namespace nephroid::segment_cube_test {
 

@@ -4,7 +4,6 @@
 #include "environment/segment/quality.h"
 #include "environment/segment/segment.h"
 #include "tests/environment/maps.h"
-#include "tests/support/errors.h"
 #include "tests/support/pictures.h"
 
 namespace nephroid::segment_test {

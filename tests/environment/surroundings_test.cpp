@@ -10,7 +10,6 @@
 #include "tests/environment/maps.h"
 #include "tests/environment/views.h"
 #include "tests/support/loaded_scenes.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::surroundings_test {
 

@@ -5,7 +5,6 @@
 #include "image/image.h"
 #include "tests/environment/maps.h"
 #include "tests/environment/views.h"
-#include "tests/support/errors.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::view_job_test {

@@ -7,8 +7,6 @@
 #include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/process_state.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test.h"
 
 namespace nephroid::test {
 

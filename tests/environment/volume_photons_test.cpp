@@ -8,7 +8,6 @@
 #include "image/image.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/medium_photons.h"
-#include "tests/support/test.h"
 
 namespace nephroid::volume_photons_test {
 

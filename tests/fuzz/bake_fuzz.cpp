@@ -8,10 +8,6 @@
 #include "environment/bake/bake_file.h"
 #include "tests/fuzz/harness.h"
 
-#include <cstdint>
-#include <cstring>
-#include <span>
-
 namespace nephroid::fuzz {
 namespace {
 
@@ -33,7 +29,7 @@ void read(std::string_view input)
   std::string bytes(input);
   const std::uint64_t begin[] = {3, hash_of(version()), identity.kernels, identity.key}; // after the file's eight letters
   if (bytes.size() > 8 + sizeof begin) std::memcpy(bytes.data() + 8, begin, sizeof begin);
-  const std::filesystem::path file = write("fuzz.bake", hashed(bytes));
+  const fs::path file = write("fuzz.bake", hashed(bytes));
   environment::bake_file_fault(file, identity);
   const environment::Bake bake = environment::read_bake(file, identity);
   if (bake.baked.empty() || bake.radii.empty()) finding("a bake of nothing");

@@ -8,14 +8,6 @@
 #include "run/run.h"
 #include "tests/fuzz/harness.h"
 
-#include <chrono>
-#include <cstddef>
-#include <cstdlib>
-#include <cstring>
-#include <iterator>
-#include <memory>
-#include <span>
-
 namespace nephroid::fuzz {
 namespace {
 

@@ -3,8 +3,6 @@
 #include "optics/dispersion.h"
 #include "tests/fuzz/harness.h"
 
-#include <cmath>
-
 namespace nephroid::fuzz {
 
 void read(std::string_view input)

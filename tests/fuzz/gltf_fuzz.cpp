@@ -4,9 +4,6 @@
 #include "run/import/import.h"
 #include "tests/fuzz/harness.h"
 
-#include <cstdint>
-#include <cstring>
-
 namespace nephroid::fuzz {
 namespace {
 
@@ -40,7 +37,7 @@ std::string glb(std::string json)
 
 void read(std::string_view input)
 {
-  const std::filesystem::path preset = folder() / "imported.json";
+  const fs::path preset = folder() / "imported.json";
   run::import_gltf(write(input.starts_with("glTF") ? "scene.glb" : "scene.gltf", input), preset);
   try {
     preset::read_preset(preset.string());

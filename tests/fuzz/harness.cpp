@@ -4,28 +4,9 @@
 
 #include "base/files.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
-#include <fstream>
 #include <unistd.h>
 
 namespace nephroid::fuzz {
-namespace fs = std::filesystem;
-namespace {
-
-double processor_seconds()
-{
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-} // namespace
 
 void finding(const std::string& what)
 {
@@ -86,8 +67,8 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments)
   const std::string_view last = (*arguments)[*count - 1];
   const std::vector<std::string> first = seeds(); // with what every input needs, as a job that has begun: its time is no input's
   if (!last.starts_with(flag)) return 0;
-  const std::filesystem::path into = last.substr(flag.size());
-  std::filesystem::create_directories(into);
+  const fs::path into = last.substr(flag.size());
+  fs::create_directories(into);
   int number = 0;
   for (const std::string& seed : first) std::ofstream(into / fmt::format("seed-{}", number++), std::ios::binary) << seed;
   std::exit(0);
@@ -96,6 +77,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size)
 {
   using namespace nephroid::fuzz;
+  using nephroid::test::processor_seconds;
   const double began = processor_seconds();
   accepts([&] { read({reinterpret_cast<const char*>(bytes), size}); });
   if (const double seconds = processor_seconds() - began; seconds > 1) finding(fmt::format("{:.1f} s of processor time", seconds));

@@ -2,11 +2,7 @@
 // What the fuzzing harnesses share. A harness is one file: it reads an input, and says what good input looks like.
 #pragma once
 #include "base/error.h"
-
-#include <filesystem>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "tests/support/standard.h"
 
 namespace nephroid::fuzz {
 
@@ -35,9 +31,9 @@ bool accepts(Call call)
 }
 
 /// A folder of this process's own. What is in it is there for the next input, too.
-const std::filesystem::path& folder();
+const fs::path& folder();
 /// A file in it.
-std::filesystem::path write(const std::string& name, std::string_view bytes);
+fs::path write(const std::string& name, std::string_view bytes);
 
 /// An input of several parts: they are joined by a line of this.
 inline constexpr std::string_view between = "\n====\n";

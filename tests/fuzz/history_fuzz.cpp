@@ -6,9 +6,6 @@
 #include "report/data.h"
 #include "tests/fuzz/harness.h"
 
-#include <iterator>
-#include <optional>
-
 namespace nephroid::fuzz {
 namespace {
 
@@ -20,7 +17,7 @@ void read(std::string_view input)
 {
   std::vector<std::string> parts = parts_of(input);
   parts.resize(std::size(names));
-  std::filesystem::create_directories(folder() / "run");
+  fs::create_directories(folder() / "run");
   for (std::size_t i = 0; i < parts.size(); ++i) write(std::string("run/") + names[i], parts[i]);
   accepts([&] {
     const job::History history = measure::read_history(folder() / "run/history.csv");
@@ -28,7 +25,7 @@ void read(std::string_view input)
     if (measure::to_csv(measure::read_history(write("again.csv", written))) != written) finding("another history is read than was written");
   });
   plan::inputs_of(parts[2]);
-  const std::filesystem::path folders[] = {folder() / "run"};
+  const fs::path folders[] = {folder() / "run"};
   const std::vector<report::RunFolder> runs = report::read_runs(folders);
   report::metrics_json(runs, {std::nullopt});
 }

@@ -5,16 +5,6 @@
 #include "scene/mesh_parts.h"
 #include "tests/fuzz/harness.h"
 
-#include <array>
-#include <cstdint>
-#include <cstdio>
-#include <cstring>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace nephroid::fuzz {
 namespace {
 

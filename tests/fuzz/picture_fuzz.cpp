@@ -7,16 +7,11 @@
 #include "scene/scene.h"
 #include "tests/fuzz/harness.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 namespace nephroid::fuzz {
 namespace {
 
 /// A portable float map: W bytes wide and H high by the first two bytes of the input, with one channel or three by the third.
-std::filesystem::path map_of(std::string_view input, int& width, int& height)
+fs::path map_of(std::string_view input, int& width, int& height)
 {
   const auto byte = [&](std::size_t at) { return at < input.size() ? static_cast<unsigned char>(input[at]) : 0; };
   width = 1 + byte(0) % 16;
@@ -42,13 +37,10 @@ std::string pixels(int width, int height, bool grey, float value)
 void read(std::string_view input)
 {
   int width = 0, height = 0;
-  const std::filesystem::path file = map_of(input, width, height);
+  const fs::path file = map_of(input, width, height);
   const FileFinder finder(folder());
   accepts([&] {
-    preset::Environment environment;
-    environment.type = preset::Environment::Type::file;
-    environment.file = file.string();
-    environment.lights = true;
+    preset::Environment environment{.type = preset::Environment::Type::file, .file = file.string(), .lights = true};
     std::vector<std::string> warnings;
     const scene::Environment map = scene::make_environment(environment, finder, "fuzz.json", warnings);
     if (map.width != width || map.height != height) finding("another size is read");
@@ -59,13 +51,8 @@ void read(std::string_view input)
   });
   accepts([&] { measure::read_mask(file, width, height); });
   accepts([&] {
-    inverse::Picture wanted;
-    wanted.type = inverse::Picture::Type::file;
-    wanted.file = file.string();
-    inverse::Layout layout;
-    layout.facets = {16, 16};
-    layout.cells = {8, 8};
-    layout.distances = {100};
+    inverse::Picture wanted{.type = inverse::Picture::Type::file, .file = file.string()};
+    inverse::Layout layout{.facets = {16, 16}, .cells = {8, 8}, .distances = {100}};
     inverse::make_target(wanted, layout, finder, "fuzz.json");
   });
 }

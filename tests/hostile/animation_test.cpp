@@ -2,7 +2,6 @@
 // Animations as the program renders them: each frame has the bits of a run of its own, killed ones go on at the missing frame, the video is
 // asked for as ffmpeg wants it, and what cannot be is a clear line.
 #include "image/image.h"
-#include "tests/support/json_lines.h"
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
 

@@ -3,7 +3,6 @@
 // on standard output and no file.
 #include "tests/support/child.h"
 #include "tests/support/program_test.h"
-#include "tests/support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,6 @@
 // crashes, hangs or takes all memory, whatever the reader underneath does.
 #include "scene/mesh.h"
 #include "tests/support/program_test.h"
-#include "tests/support/temporary_folder.h"
 
 #include <bit>
 #include <csignal>

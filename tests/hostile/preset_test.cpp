@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad presets: each is refused with exactly one line that says where, what is wrong, what is expected and what to do.
 #include "preset/read.h"
-#include "tests/support/errors.h"
 #include "tests/support/process_state.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::preset_test {
 

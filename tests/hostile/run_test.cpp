@@ -4,8 +4,8 @@
 #include "measure/history_file.h"
 #include "preset/read.h"
 #include "run/run.h"
-#include "tests/support/json_lines.h"
 #include "tests/support/plate_runs.h"
+#include "tests/support/program_test.h"
 #include "tests/support/test_kernels.h"
 
 #include <nlohmann/json.hpp>

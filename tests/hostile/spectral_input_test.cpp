@@ -4,7 +4,6 @@
 // malformed dispersion files (tests/unit/dispersion_test.cpp).
 #include "preset/read.h"
 #include "scene/scene.h"
-#include "tests/support/errors.h"
 #include "tests/support/program_test.h"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid dispersion`, `clusters` and `importance` as scripts use them: JSON as the contract has it, good files among bad ones, odd
 // names, and one line for whatever is wrong, here and with spectral.effort elsewhere.
-#include "tests/support/json_lines.h"
 #include "tests/support/program_test.h"
 
 #include <nlohmann/json.hpp>

@@ -4,7 +4,6 @@
 #include "preset/read.h"
 #include "tests/support/render.h"
 #include "tests/support/stored_statistics.h"
-#include "tests/support/test.h"
 
 namespace nephroid::statistics_test {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sweeps bring facets to the pictures: what they believe, that they only gain, and that they go on with the same bits. Their cost
 // and its smoothing.
-#include "base/files.h"
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
 #include "inverse/assign/cost.h"
@@ -11,7 +10,6 @@
 #include "tests/inverse/searches.h"
 #include "tests/inverse/sound.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/test.h"
 
 namespace nephroid::assignment_test {
 
@@ -120,15 +118,8 @@ TEST(Assignment, GoesOnWithTheSameBitsInTheRefinement)
 
 TEST(Assignment, HasThePicturesOfAnObjectThatIsNotSquare)
 {
-  Layout layout;
-  layout.size = {120, 60};
-  layout.receiver = {80, 80};
-  layout.facets = {64, 32};
-  layout.cells = {24, 24};
-  layout.distances = {150};
-  Picture star;
-  star.type = Picture::Type::star;
-  star.count = 5;
+  Layout layout{.size = {120, 60}, .facets = {64, 32}, .receiver = {80, 80}, .cells = {24, 24}, .distances = {150}};
+  const Picture star{.type = Picture::Type::star, .count = 5};
   const std::vector<Target> targets{make_target(star, layout, FileFinder(), "star")};
   Assignment a(layout, targets, 1);
   sweep(a, 3);
@@ -155,8 +146,7 @@ TEST(Cost, IsThatOfTheThesisOverCellsWithLight)
 // unlike it alone: 1 - cos theta for itself; of its neighbours, two have 2 of their own and one has 3.
 TEST(Smoothing, RoughnessIsCostN)
 {
-  Layout layout;
-  layout.facets = {3, 2};
+  Layout layout{.facets = {3, 2}};
   std::vector<glm::dvec2> slopes(6);
   EXPECT_NEAR(roughness(layout, slopes), 0, 1e-15);
   slopes[1] = {0.3, -0.2};
@@ -184,15 +174,8 @@ struct Made {
 
 Made made(double smoothing)
 {
-  Layout layout;
-  layout.facets = {32, 32};
-  layout.cells = {16, 16};
-  layout.distances = {100, 200};
-  layout.smoothing = smoothing;
-  Picture ring, disc;
-  ring.type = Picture::Type::ring;
-  const FileFinder finder;
-  const std::vector<Target> targets{make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
+  Layout layout{.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}, .smoothing = smoothing};
+  const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(layout, targets, 1);
   double before = a.residual();
   while (a.steps() < 3) {
@@ -237,11 +220,7 @@ struct Found {
 
 Found assigned(const std::vector<double>& distances, const std::vector<Target>& targets)
 {
-  Found found;
-  found.layout.facets = {64, 64};
-  found.layout.cells = {16, 16};
-  found.layout.distances = distances;
-  found.targets = targets;
+  Found found{.layout = {.facets = {64, 64}, .cells = {16, 16}, .distances = distances}, .targets = targets};
   Assignment a(found.layout, targets, 1);
   while (!a.finished()) a.advance();
   found.slopes = a.slopes();
@@ -255,8 +234,7 @@ double fight(const Conflicts& c, std::size_t j, std::size_t k) { return c.betwee
 // Light that goes straight on makes the same picture at any distance: here the whole receiver.
 TEST(Conflicts, NoneWhereStraightLightMakesBoth)
 {
-  const Found found = assigned({100, 200}, {box(0, 16), box(0, 16)});
-  EXPECT_LT(fight(found.search().of_pictures(), 0, 1), 0.05);
+  EXPECT_LT(fight(assigned({100, 200}, {box(0, 16), box(0, 16)}).search().of_pictures(), 0, 1), 0.05);
 }
 
 // Through a first receiver's left edge no light comes to a second one's right edge. A facet serves one of them: all of the light is
@@ -275,10 +253,7 @@ TEST(Conflicts, AllLightWherePicturesExcludeEachOther)
 // What is misplaced by facets is what the picture lacks elsewhere: |Z - T| / 2 of light that is all there.
 TEST(Conflicts, AddUpToTheError)
 {
-  Layout layout;
-  layout.facets = {32, 32};
-  layout.cells = {16, 16};
-  layout.distances = {100};
+  Layout layout{.facets = {32, 32}, .cells = {16, 16}, .distances = {100}};
   const std::vector<Target> targets{box(3, 9, 2, 12)};
   const Assignment a(layout, targets, 4); // random slopes, all of them to the receiver
   const double sent = inverse::light_sent(layout, a.slopes());

@@ -20,10 +20,7 @@ void expect_all_light(const Fates& f) { EXPECT_NEAR(f.sent + f.reflected + f.los
 // Light goes straight through a slab: both sides let 1 - ((n - 1) / (n + 1))^2 = 0.96 through, and every cell gets the same.
 TEST(Judge, SeesASlabAsAWindow)
 {
-  Layout layout;
-  layout.facets = {16, 16};
-  layout.cells = {8, 8};
-  layout.distances = {50, 500};
+  Layout layout{.facets = {16, 16}, .cells = {8, 8}, .distances = {50, 500}};
   const Solid solid = make_solid(layout, std::vector<glm::dvec2>(256));
   Judge judge(layout, solid, 1);
   while (!judge.finished()) judge.advance();
@@ -36,10 +33,7 @@ TEST(Judge, SeesASlabAsAWindow)
 
 TEST(Judge, FindsAFacetsSpotToAHundredthOfAMillimetre)
 {
-  Layout layout;
-  layout.size = {2, 2};
-  layout.facets = {1, 1};
-  layout.distances = {100};
+  Layout layout{.size = {2, 2}, .facets = {1, 1}, .distances = {100}};
   for (const double n : {1.33, 1.5, 2.4})
     for (const glm::dvec2& slope : {glm::dvec2(0.3, 0), glm::dvec2(-0.2, 0.4), glm::dvec2(0, 0)}) {
       layout.n = n;
@@ -57,13 +51,7 @@ TEST(Judge, FindsAFacetsSpotToAHundredthOfAMillimetre)
 // A beam of slope s is at s d on a screen at d, a receiver or not.
 TEST(Judge, LooksBetweenReceiversToo)
 {
-  Layout layout;
-  layout.size = {1, 1};
-  layout.facets = {1, 1};
-  layout.receiver = {80, 80};
-  layout.cells = {80, 80};
-  layout.distances = {100, 200};
-  layout.frames = {130, 170};
+  Layout layout{.size = {1, 1}, .facets = {1, 1}, .receiver = {80, 80}, .cells = {80, 80}, .distances = {100, 200}, .frames = {130, 170}};
   const glm::dvec2 slope{0.15, 0.1};
   const Solid solid = make_solid(layout, {slope});
   Judge judge(layout, solid, 1);
@@ -82,31 +70,19 @@ TEST(Judge, LooksBetweenReceiversToo)
 // wall if that is above the right one's edge, -gb / 2: where u < (gb - ga) / 2 / (1 / a - ga).
 TEST(Judge, MeetsAWallWhereItsShadowIs)
 {
-  Layout layout;
-  layout.size = {2, 1};
-  layout.facets = {2, 1};
-  layout.distances = {100};
+  Layout layout{.size = {2, 1}, .facets = {2, 1}, .distances = {100}};
   const double a = 0.05, b = 0.3;
   const Solid solid = make_solid(layout, {{a, 0}, {-b, 0}});
   const double ga = std::abs(inverse::facet_gradient({a, 0}, 1.5).x), gb = std::abs(inverse::facet_gradient({b, 0}, 1.5).x);
   const double shadow = (gb - ga) / 2 / (1 / a - ga);
   const scene::Bvh bvh = scene::build_bvh(solid.mesh);
-  for (const double u : {0.02 * shadow, 0.5 * shadow, 0.98 * shadow}) {
-    EXPECT_TRUE(follow(solid, bvh, 1.5, {-u, 0.1, 20}, {0, 0, -1}).met_wall) << u / shadow;
-  }
-  for (const double u : {1.02 * shadow, 2 * shadow, 0.9})
-    EXPECT_FALSE(follow(solid, bvh, 1.5, {-u, 0.1, 20}, {0, 0, -1}).met_wall) << u / shadow;
+  for (const double u : {0.02 * shadow, 0.5 * shadow, 0.98 * shadow, 1.02 * shadow, 2 * shadow, 0.9})
+    EXPECT_EQ(follow(solid, bvh, 1.5, {-u, 0.1, 20}, {0, 0, -1}).met_wall, u < shadow) << u / shadow;
 }
 
 TEST(Judge, AccountsForAllLight)
 {
-  Layout layout;
-  layout.facets = {12, 9};
-  layout.cells = {20, 10};
-  layout.receiver = {300, 200};
-  layout.distances = {70};
-  layout.sun_radius = 0.05;
-  layout.scatter = 0.02;
+  Layout layout{.facets = {12, 9}, .receiver = {300, 200}, .cells = {20, 10}, .distances = {70}, .sun_radius = 0.05, .scatter = 0.02};
   std::vector<glm::dvec2> slopes;
   for (int i = 0; i < 108; ++i) slopes.push_back(0.9 * glm::dvec2(std::sin(3 * i), std::cos(5 * i)));
   const Solid solid = make_solid(layout, slopes);
@@ -123,14 +99,13 @@ TEST(Judge, AccountsForAllLight)
 // The blur that the optimiser reckons with is the one that rays have.
 TEST(Judge, BlursAsTheFootprintDoes)
 {
-  Layout layout;
-  layout.facets = {1, 1};
-  layout.size = {1, 1};
-  layout.receiver = {20, 20};
-  layout.cells = {40, 40};
-  layout.distances = {100};
-  layout.sun_radius = std::tan(0.265 * 3.141592653589793 / 180) * 3;
-  layout.scatter = 0.01;
+  Layout layout{.size = {1, 1},
+                .facets = {1, 1},
+                .receiver = {20, 20},
+                .cells = {40, 40},
+                .distances = {100},
+                .sun_radius = std::tan(0.265 * 3.141592653589793 / 180) * 3,
+                .scatter = 0.01};
   const Solid solid = make_solid(layout, {{0, 0}});
   Judge judge(layout, solid, 1);
   while (!judge.finished()) judge.advance();
@@ -211,10 +186,7 @@ TEST(Bending, SlopesEndWhereLightRunsAlongTheFacet)
 
 Layout coarse()
 {
-  Layout layout;
-  layout.facets = {8, 6}; // a facet of 12.5 x 16.7 mm over cells of 1.56 mm
-  layout.distances = {60, 130};
-  return layout;
+  return {.facets = {8, 6}, .distances = {60, 130}}; // a facet of 12.5 x 16.7 mm over cells of 1.56 mm
 }
 
 std::vector<double> sums(const std::vector<double>& cells, int columns, bool along_x)

@@ -3,7 +3,7 @@
 #include "inverse/bending.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 #include <glm/gtc/constants.hpp>
 

@@ -6,27 +6,17 @@
 #include "inverse/light.h"
 #include "optics/fresnel.h"
 #include "scene/bvh.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::lights_test {
 
 using namespace inverse;
 
-Light tilted(double tilt_deg, double turn_deg)
-{
-  Light light;
-  light.tilt_deg = tilt_deg;
-  light.turn_deg = turn_deg;
-  return light;
-}
+Light tilted(double tilt_deg, double turn_deg) { return {.tilt_deg = tilt_deg, .turn_deg = turn_deg}; }
 
 Light lamp(double distance_mm, std::array<double, 2> offset_mm = {0, 0})
 {
-  Light light;
-  light.type = Light::Type::point;
-  light.distance_mm = distance_mm;
-  light.offset_mm = offset_mm;
-  return light;
+  return {.type = Light::Type::point, .distance_mm = distance_mm, .offset_mm = offset_mm};
 }
 
 Layout with(Layout layout, const Light& light)
@@ -52,13 +42,7 @@ TEST(Lights, AFacetsSpotIsWhereItsSlopeSays)
 {
   for (const double n : {1.33, 1.5, 2.4})
     for (const Light& light : {tilted(25, 30), tilted(-10, 80), lamp(150), lamp(90, {30, -20})}) {
-      Layout layout;
-      layout.n = n;
-      layout.size = {1.2, 1.2};
-      layout.thickness = 1;
-      layout.facets = {1, 1};
-      layout.distances = {100};
-      layout.receiver = {100, 100};
+      Layout layout{.size = {1.2, 1.2}, .thickness = 1, .facets = {1, 1}, .n = n, .receiver = {100, 100}, .distances = {100}};
       layout = with(layout, light);
       const glm::dvec2 slope{0.1, -0.15};
       const Solid solid = make_solid(layout, {slope});
@@ -97,12 +81,7 @@ TEST(Lights, ASlopeChangesWithLightAndIndexAsRaysDo)
 // From a lamp at a before a slab of T, light at the axis goes as from a + T / n: a flat facet's beam grows by (a + T / n + d) over that.
 TEST(Lights, ALampsBeamGrowsWithDistance)
 {
-  Layout layout;
-  layout.size = {5, 5};
-  layout.facets = {5, 5};
-  layout.distances = {60, 300};
-  layout.receiver = {40, 40};
-  layout.cells = {400, 400};
+  Layout layout{.size = {5, 5}, .facets = {5, 5}, .receiver = {40, 40}, .cells = {400, 400}, .distances = {60, 300}};
   layout = with(layout, lamp(200));
   for (const std::size_t receiver : {0u, 1u}) {
     const inverse::Footprint print = footprint(layout, 12, {0, 0}, receiver);
@@ -116,9 +95,7 @@ TEST(Lights, ALampsBeamGrowsWithDistance)
 // they fall as the cosine's cube.
 TEST(Lights, ALampsLightIsASolidAngle)
 {
-  Layout layout;
-  layout.size = {80, 60};
-  layout.distances = {100};
+  Layout layout{.size = {80, 60}, .distances = {100}};
   layout = with(layout, lamp(120, {20, 10}));
   double sum = 0;
   for (int i = 0; i < 40000; ++i)
@@ -131,9 +108,7 @@ TEST(Lights, ALampsLightIsASolidAngle)
 TEST(Lights, AllLightIsAccountedFor)
 {
   for (const Light& light : {tilted(20, 200), lamp(120, {10, 0})}) {
-    Layout layout;
-    layout.facets = {20, 20};
-    layout.distances = {150};
+    Layout layout{.facets = {20, 20}, .distances = {150}};
     layout = with(layout, light);
     double power = 0;
     for (const Incoming& in : layout.incoming) power += in.power;
@@ -151,9 +126,7 @@ TEST(Lights, AllLightIsAccountedFor)
 // about straight on.
 TEST(Lights, AFacetsPowerIsWhatRaysBring)
 {
-  Layout layout;
-  layout.facets = {40, 40};
-  layout.distances = {100};
+  Layout layout{.facets = {40, 40}, .distances = {100}};
   layout = with(layout, tilted(20, 30));
   for (Incoming& in : layout.incoming) in.around = inverse::facet_gradient({0, 0}, layout.n, in.sines);
   const double straight = 0.96 * (1 - optics::fresnel_reflectance(std::cos(20 * 3.14159265 / 180), 1, 1.5));
@@ -210,16 +183,7 @@ void expect_same_spot(const Layout& layout, const glm::dvec2& slope, double tole
   }
 }
 
-Layout one_facet()
-{
-  Layout layout;
-  layout.size = {1, 1};
-  layout.facets = {1, 1};
-  layout.receiver = {120, 120};
-  layout.cells = {240, 240};
-  layout.distances = {100};
-  return layout;
-}
+Layout one_facet() { return {.size = {1, 1}, .facets = {1, 1}, .receiver = {120, 120}, .cells = {240, 240}, .distances = {100}}; }
 
 // A steep facet widens the sun's disc along the slope, by the derivative of Snell's law.
 TEST(Lights, ASteepFacetWidensTheSun)
@@ -241,8 +205,7 @@ TEST(Lights, ABandOfWavelengthsPartsAlongTheSlope)
 
 TEST(Lights, ThatCannotBeAreRefused)
 {
-  Layout layout;
-  layout.distances = {100, 200};
+  Layout layout{.distances = {100, 200}};
   const auto refusal = [&](const Light& light) { return test::refusal_of([&] { with(layout, light); }); };
   EXPECT_THAT(refusal(lamp(-50)), HasSubstr("own.json#/distance_mm: is -50 mm, and the light would stand behind the front"));
   EXPECT_THAT(refusal(lamp(0)), HasSubstr("expected more than 0 mm"));

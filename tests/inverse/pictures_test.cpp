@@ -2,37 +2,17 @@
 // Words, QR codes, grey levels and tones as light a cell.
 #include "image/image.h"
 #include "inverse/pictures/target.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace nephroid::pictures_test {
 
 using namespace inverse;
 
-Layout cells(int across, int down)
-{
-  Layout layout;
-  layout.cells = {across, down};
-  layout.receiver = glm::dvec2(across, down);
-  return layout;
-}
+Layout cells(int across, int down) { return {.receiver = glm::dvec2(across, down), .cells = {across, down}}; }
 
-Picture words(const std::string& text, double length)
-{
-  Picture picture;
-  picture.type = Picture::Type::text;
-  picture.text = text;
-  picture.length = length;
-  return picture;
-}
+Picture words(const std::string& text, double length) { return {.type = Picture::Type::text, .text = text, .length = length}; }
 
-Picture code(const std::string& text)
-{
-  Picture picture;
-  picture.type = Picture::Type::qr;
-  picture.text = text;
-  return picture;
-}
+Picture code(const std::string& text) { return {.type = Picture::Type::qr, .text = text}; }
 
 Target made(const Picture& picture, const Layout& layout) { return make_target(picture, layout, FileFinder(), "p"); }
 
@@ -118,9 +98,7 @@ TEST(Pictures, WordsWithoutLetters)
 // A face is lit, has grey levels, and its eyes are darker than its brow.
 TEST(Pictures, AFaceHasGreyLevels)
 {
-  Picture picture;
-  picture.type = Picture::Type::face;
-  picture.radius = 0.5;
+  Picture picture{.type = Picture::Type::face, .radius = 0.5};
   const Target target = made(picture, cells(64, 64));
   std::vector<double> values(target);
   std::sort(values.begin(), values.end());
@@ -142,10 +120,7 @@ protected:
 TEST_F(PictureFiles, ToneIsAnExponent)
 {
   image::write_exr(file + ".exr", {2, 1, {"Y"}, {2.0f, 4.0f}, {}, false});
-  Picture picture;
-  picture.type = Picture::Type::file;
-  picture.file = file + ".exr";
-  picture.tone = 2;
+  Picture picture{.type = Picture::Type::file, .file = file + ".exr", .tone = 2};
   const Target target = made(picture, cells(2, 1));
   EXPECT_NEAR(target[0], 0.2, 1e-9); // (1/2)^2 of 1 + (1/2)^2
   EXPECT_NEAR(target[1], 0.8, 1e-9);
@@ -156,15 +131,13 @@ TEST_F(PictureFiles, AreDarkWhereTheyAreTransparent)
 {
   image::write_png_bytes(folder.path() / "cut.png", 2, 1, {255, 255, 255, 0, 255, 255, 255, 255});
   const inverse::Grey grey = inverse::read_grey(folder.path() / "cut.png");
-  EXPECT_THAT(grey.values, testing::ElementsAre(0, 1));
+  EXPECT_THAT(grey.values, ElementsAre(0, 1));
 }
 
 TEST_F(PictureFiles, AreRefusedWhereTheyAreHuge)
 {
   std::ofstream(file + ".hdr", std::ios::binary) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n";
-  Picture picture;
-  picture.type = Picture::Type::file;
-  picture.file = file + ".hdr";
+  Picture picture{.type = Picture::Type::file, .file = file + ".hdr"};
   EXPECT_THAT(test::refusal_of([&] { made(picture, cells(8, 8)); }),
               AllOf(HasSubstr("p.hdr"), HasSubstr("60000 x 60000 pixels of 3 channels, and at most 2^29 values are read")));
 }

@@ -9,21 +9,11 @@ namespace nephroid::test {
 
 using namespace inverse;
 
-inline Layout small_layout()
-{
-  Layout layout;
-  layout.facets = {32, 32};
-  layout.cells = {16, 16};
-  layout.distances = {100, 200};
-  return layout;
-}
+inline Layout small_layout() { return {.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}}; }
 
 inline std::vector<Target> ring_and_disc(const Layout& layout)
 {
-  Picture ring, disc;
-  ring.type = Picture::Type::ring;
-  const FileFinder finder;
-  return {make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
+  return {make_target({.type = Picture::Type::ring}, layout, FileFinder(), "ring"), make_target({}, layout, FileFinder(), "disc")};
 }
 
 inline void sweep(Assignment& a, int sweeps)

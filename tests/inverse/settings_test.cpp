@@ -4,8 +4,7 @@
 #include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "preset/read.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace nephroid::settings_test {
 

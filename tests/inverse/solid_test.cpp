@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The object is one closed solid, whatever its facets are; the files it is written to.
-#include "base/files.h"
 #include "image/image.h"
 #include "inverse/bending.h"
 #include "inverse/facets/files.h"
 #include "inverse/facets/heights.h"
 #include "inverse/facets/solid.h"
 #include "tests/inverse/sound.h"
-#include "tests/support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -263,7 +261,7 @@ protected:
   Layout layout = test::small(15, 11);
   Solid solid = make_solid(layout, test::random_slopes(layout, 0.5, 2));
 
-  std::filesystem::path written(const char* name, const std::function<void(ByteSink&)>& write) const
+  fs::path written(const char* name, const std::function<void(ByteSink&)>& write) const
   {
     write_file_whole(folder.path() / name, write);
     return folder.path() / name;

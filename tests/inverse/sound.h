@@ -9,14 +9,7 @@ namespace nephroid::test {
 
 using inverse::Layout;
 
-inline Layout small(int columns, int rows)
-{
-  Layout layout;
-  layout.size = {7, 5};
-  layout.thickness = 3;
-  layout.facets = {columns, rows};
-  return layout;
-}
+inline Layout small(int columns, int rows) { return {.size = {7, 5}, .thickness = 3, .facets = {columns, rows}}; }
 
 inline std::vector<glm::dvec2> random_slopes(const Layout& layout, double most, int seed)
 {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thesis' pipeline: draws from the joint probability, what is done to pictures, annealing; and as a whole: what its stages gain, that
 // it ends, and that it goes on with the same bits.
-#include "base/files.h"
-#include "inverse/pictures/target.h"
 #include "inverse/thesis/adjust.h"
 #include "inverse/thesis/pipeline.h"
 #include "inverse/thesis/sampler.h"
 #include "inverse/uniform.h"
+#include "tests/inverse/searches.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/test.h"
 
 namespace nephroid::thesis_test {
 
@@ -18,19 +16,19 @@ class ThesisPipeline : public testing::Test {
 protected:
   ThesisPipeline()
   {
-    layout.facets = {32, 32}; // two pieces of work a trial
-    layout.cells = {16, 16};
-    layout.distances = {100, 200};
     settings.cycles = 3;
     settings.moves = 2;
     settings.corrections = 5;
     settings.directions = 48;
-    Picture ring, disc;
-    ring.type = Picture::Type::ring;
-    const FileFinder finder;
-    targets = {make_target(ring, layout, finder, "ring"), make_target(disc, layout, finder, "disc")};
   }
 
+  /// Light through the left edge of the first receiver never comes to the right edge of the second.
+  void light_edges()
+  {
+    targets.assign(2, Target(256));
+    targets[0][8 * 16 + 0] = 1;
+    targets[1][8 * 16 + 15] = 1;
+  }
   static void finish(Pipeline& pipeline)
   {
     while (!pipeline.finished()) pipeline.advance();
@@ -42,8 +40,8 @@ protected:
     return snapshot;
   }
 
-  Layout layout;
-  std::vector<Target> targets;
+  Layout layout = small_layout(); // two pieces of work a trial
+  std::vector<Target> targets = ring_and_disc(layout);
   Thesis settings;
 };
 
@@ -95,13 +93,10 @@ TEST_F(ThesisPipeline, GoesOnWithTheSameBitsInEveryStage)
   }
 }
 
-// Light through the left edge of the first receiver never comes to the right edge of the second. Such facets are counted, nothing loops or
-// becomes infinite, and the cost is the highest that there is.
+// Such facets are counted, nothing loops or becomes infinite, and the cost is the highest that there is.
 TEST_F(ThesisPipeline, CountsFacetsWithoutADirection)
 {
-  targets.assign(2, Target(256));
-  targets[0][8 * 16 + 0] = 1;
-  targets[1][8 * 16 + 15] = 1;
+  light_edges();
   settings.sampling = Thesis::Sampling::rejection;
   settings.cycles = 0;
   Pipeline pipeline(layout, targets, settings, 1);
@@ -110,7 +105,7 @@ TEST_F(ThesisPipeline, CountsFacetsWithoutADirection)
   EXPECT_EQ(job::scalar(s, "thesis", "dark_facets"), 1024);
   EXPECT_EQ(job::scalar(s, "thesis", "cost_correction"), 1);
   EXPECT_EQ(job::scalar(s, "thesis", "missing_cells_1"), 1);
-  EXPECT_THAT(s.warnings.at(0), testing::HasSubstr("1024 facets can send light nowhere where all pictures are lit"));
+  EXPECT_THAT(s.warnings.at(0), HasSubstr("1024 facets can send light nowhere where all pictures are lit"));
   EXPECT_EQ(pipeline.slopes()[77], glm::dvec2(0));
   EXPECT_EQ(pipeline.steps(), 1 + settings.patience); // rounds without a gain
 }
@@ -118,9 +113,7 @@ TEST_F(ThesisPipeline, CountsFacetsWithoutADirection)
 // With extension and overshoot the same facets find their way.
 TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing)
 {
-  targets.assign(2, Target(256));
-  targets[0][8 * 16 + 0] = 1;
-  targets[1][8 * 16 + 15] = 1;
+  light_edges();
   settings.size_limit = 0;
   Pipeline pipeline(layout, targets, settings, 1);
   finish(pipeline);
@@ -133,15 +126,7 @@ TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing)
 constexpr Thesis::Sampling both[] = {Thesis::Sampling::exact, Thesis::Sampling::rejection};
 
 /// A facet in the middle, on the axis; cells of 10 mm.
-Layout one_facet()
-{
-  Layout layout;
-  layout.size = layout.receiver = {90, 90};
-  layout.facets = {1, 1};
-  layout.cells = {9, 9};
-  layout.distances = {100, 200};
-  return layout;
-}
+Layout one_facet() { return {.size = {90, 90}, .facets = {1, 1}, .receiver = {90, 90}, .cells = {9, 9}, .distances = {100, 200}}; }
 
 /// Of 9 x 9 cells: 1 in these, which are columns of the middle row.
 std::vector<double> lit(const std::vector<std::size_t>& columns)
@@ -157,9 +142,7 @@ TEST(ThesisSampler, DrawsCellsAsOftenAsTheyAreBright)
   std::vector<double> picture = lit({2, 7});
   picture[4 * 9 + 7] = 0.25;
   for (const Thesis::Sampling sampling : both) {
-    Thesis settings;
-    settings.sampling = sampling;
-    settings.directions = 90; // ten a cell
+    const Thesis settings{.sampling = sampling, .directions = 90}; // ten a cell
     std::mt19937_64 random(1);
     const Draws draws = Sampler(layout, {{100, picture, 0}}, settings).draw(0, 5000, random);
     ASSERT_EQ(draws.cells.size(), 5000u);
@@ -177,10 +160,7 @@ TEST(ThesisSampler, DrawsCellsAsOftenAsTheyAreBright)
 // (5.1) by brute force: for each cell of the first receiver the product of both pictures, over many directions through it.
 TEST(ThesisSampler, FollowsTheProductOfThePictures)
 {
-  Layout layout;
-  layout.facets = {4, 4};
-  layout.cells = {6, 6};
-  layout.distances = {100, 150};
+  Layout layout{.facets = {4, 4}, .cells = {6, 6}, .distances = {100, 150}};
   std::mt19937_64 random(5);
   std::vector<Aim> aims{{100, {}, 0}, {150, {}, 0}};
   for (Aim& aim : aims)
@@ -197,9 +177,7 @@ TEST(ThesisSampler, FollowsTheProductOfThePictures)
   }
   const double all = std::accumulate(expected.begin(), expected.end(), 0.0);
   for (const Thesis::Sampling sampling : both) {
-    Thesis settings;
-    settings.sampling = sampling;
-    settings.directions = 300;
+    Thesis settings{.sampling = sampling, .directions = 300};
     constexpr int count = 20000;
     const Draws draws = Sampler(layout, aims, settings).draw(facet, count, random);
     std::vector<double> counts(36);
@@ -217,8 +195,7 @@ TEST(ThesisSampler, HasNoDrawWhereNoDirectionIsLitInAll)
   const Layout layout = one_facet();
   std::mt19937_64 random(1);
   for (const Thesis::Sampling sampling : both) {
-    Thesis settings;
-    settings.sampling = sampling;
+    Thesis settings{.sampling = sampling};
     EXPECT_TRUE(Sampler(layout, {{100, lit({6}), 0}, {200, lit({4}), 0}}, settings).draw(0, 3, random).slopes.empty());
     EXPECT_EQ(Sampler(layout, {{100, lit({6}), 0}, {200, lit({8}), 0}}, settings).draw(0, 3, random).slopes.size(), 3u);
     // Column 7 leads beside the second receiver: with overshoot that is allowed.

@@ -3,8 +3,6 @@
 #include "compute/compute.h"
 #include "compute/embedded.h"
 #include "tests/support/child.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
 
 #include <cctype>
 
@@ -43,7 +41,7 @@ TEST(Devices, AreListedWithWhatTheyCanDo)
     EXPECT_EQ(devices[i].index, static_cast<int>(i));
     EXPECT_GT(devices[i].compute_units, 0);
     EXPECT_GT(devices[i].max_buffer_bytes, 0u);
-    EXPECT_THAT(devices[i].type, testing::AnyOf("cpu", "gpu", "accelerator"));
+    EXPECT_THAT(devices[i].type, AnyOf("cpu", "gpu", "accelerator"));
   }
 }
 
@@ -127,10 +125,9 @@ TEST_F(EditedKernels, ErrorsNameTheFileAndLineThatIsWrong)
   write("fine.h", "#define A 1\n#define B 2\n");
   write("missing.cl", "// a comment\n  #  include \"not there.h\"\n");
   const Context context = open();
-  EXPECT_THAT(error_line([&] { Program(context, "test.cl"); }),
-              AllOf(testing::StartsWith("wrong.h:2: "), HasSubstr("'b'"), HasSubstr("test.cl")));
-  EXPECT_THAT(error_line([&] { Program(context, "below.cl"); }), testing::StartsWith("below.cl:3: "));
-  EXPECT_THAT(error_line([&] { Program(context, "missing.cl"); }), AllOf(testing::StartsWith("missing.cl:2: "), HasSubstr("not there.h")));
+  EXPECT_THAT(error_line([&] { Program(context, "test.cl"); }), AllOf(StartsWith("wrong.h:2: "), HasSubstr("'b'"), HasSubstr("test.cl")));
+  EXPECT_THAT(error_line([&] { Program(context, "below.cl"); }), StartsWith("below.cl:3: "));
+  EXPECT_THAT(error_line([&] { Program(context, "missing.cl"); }), AllOf(StartsWith("missing.cl:2: "), HasSubstr("not there.h")));
   EXPECT_THAT(error_line([&] { Program(Context::open(), "nothing.cl"); }), AllOf(HasSubstr("nothing.cl"), HasSubstr("tracing/trace.cl")));
   try {
     Program(context, "test.cl");
@@ -226,8 +223,7 @@ TEST(Environment, WithoutAPlatformThereIsOneClearLine)
 {
   const test::Ended ended = devices_with({{"OCL_ICD_VENDORS", "/nonexistent"}});
   EXPECT_EQ(ended.exit_code, 3);
-  EXPECT_THAT(ended.err,
-              AllOf(testing::StartsWith("nephroid: "), HasSubstr("no OpenCL platform"), HasSubstr("apt install pocl-opencl-icd")));
+  EXPECT_THAT(ended.err, AllOf(StartsWith("nephroid: "), HasSubstr("no OpenCL platform"), HasSubstr("apt install pocl-opencl-icd")));
   EXPECT_EQ(lines(ended.err), 1);
   EXPECT_EQ(ended.out, "");
 }

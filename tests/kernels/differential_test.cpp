@@ -4,7 +4,6 @@
 #include "tests/support/differential_reference.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tracing/world.h"
 
 namespace nephroid::differential_test {
@@ -198,9 +197,7 @@ preset::Preset smooth_rod() { return rod(preset::Object::Normals::smooth); }
 preset::Preset brilliant()
 {
   preset::Preset p = room();
-  preset::Shape stone;
-  stone.type = preset::Shape::Type::brilliant;
-  stone.radius = 1;
+  preset::Shape stone{.type = preset::Shape::Type::brilliant, .radius = 1};
   p.scene.objects.push_back(object("stone", stone, "flint", at({0, 0, 0}, {20, 10, 0})));
   return p;
 }

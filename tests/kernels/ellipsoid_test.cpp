@@ -6,7 +6,6 @@
 #include "scene/bvh.h"
 #include "tests/support/ellipsoids.h"
 #include "tests/support/meshes.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -152,8 +151,7 @@ class EllipsoidRays : public testing::TestWithParam<EllipsoidCase> {};
 TEST_P(EllipsoidRays, MeetItWhereTheQuadraticSays)
 {
   const auto& [name, ellipsoid, distance, tolerance] = GetParam();
-  scene::Mesh mesh;
-  mesh.ellipsoids = {ellipsoid};
+  scene::Mesh mesh{.ellipsoids = {ellipsoid}};
   const compute::Context context = compute::Context::open(device_options());
   KernelTracer tracer(context, mesh);
   const double size = longest_half_axis(ellipsoid);
@@ -200,8 +198,7 @@ TEST(Ellipsoid, TheOneThatARayLeavesIsMetOnItsFarSideOnly)
   std::mt19937 random(2);
   for (const glm::vec3& centre : {glm::vec3(0), glm::vec3(0.7f, -0.7f, 0.1f)})
     for (const float radius : {1e-5f, 1.0f}) {
-      scene::Mesh mesh;
-      mesh.ellipsoids = {sphere_at(centre, radius)};
+      scene::Mesh mesh{.ellipsoids = {sphere_at(centre, radius)}};
       std::vector<Ray> rays;
       std::vector<bool> inwards;
       for (int i = 0; i < 20000; ++i) {

@@ -2,7 +2,6 @@
 // kernels/tracing/emission.h, first in extreme places: a far and small target, and a light inside of one.
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 #include <glm/glm.hpp>
@@ -103,8 +102,7 @@ float4 device(const glm::dvec3& v) { return {static_cast<float>(v.x), static_cas
 
 DeviceTarget target(double x, double y, double z, double radius)
 {
-  DeviceTarget t{};
-  t.centre_radius = device({x, y, z});
+  DeviceTarget t{.centre_radius = device({x, y, z})};
   t.centre_radius.w = static_cast<float>(radius);
   return t;
 }
@@ -117,9 +115,7 @@ std::vector<Sent> emit(const DeviceLight& light)
   DeviceLight with_targets = light;
   with_targets.first_target = 0;
   with_targets.target_count = static_cast<int>(targets.size());
-  shared::DeviceScene scene{};
-  scene.metres_per_unit = 0.01f;
-  scene.outside_distance = 20;
+  shared::DeviceScene scene{.metres_per_unit = 0.01f, .outside_distance = 20};
   const compute::Buffer<DeviceTarget> on_device(kernels().context(), "targets", std::span<const DeviceTarget>(targets));
   const compute::Buffer<Sent> out(kernels().context(), "out", count);
   kernels()
@@ -227,10 +223,7 @@ std::size_t cell_of_sent_direction(const Sent& photon) { return cell_of_directio
 
 TEST(EmissionSamplers, PointLight)
 {
-  DeviceLight light{};
-  light.type = LIGHT_POINT;
-  light.radiometric = 7;
-  light.position = device({0.1, -0.2, 0.3});
+  DeviceLight light{.position = device({0.1, -0.2, 0.3}), .type = LIGHT_POINT, .radiometric = 7};
   const glm::dvec3 from = vector(light.position);
   const std::vector<double> density =
       integrals(4 * M_PI, [&](double a, double b, double, double) { return double(targets_met(from, direction_of(a, b))); });
@@ -241,11 +234,10 @@ TEST(EmissionSamplers, PointLight)
 
 DeviceLight spot(double half_angle_deg)
 {
-  DeviceLight light{};
-  light.type = LIGHT_SPOT;
-  light.radiometric = 7;
-  light.direction = device(glm::normalize(glm::dvec3(0.1, 0.1, -1)));
-  light.one_minus_cos = static_cast<float>(1 - std::cos(half_angle_deg * M_PI / 180));
+  DeviceLight light{.direction = device(glm::normalize(glm::dvec3(0.1, 0.1, -1))),
+                    .type = LIGHT_SPOT,
+                    .one_minus_cos = static_cast<float>(1 - std::cos(half_angle_deg * M_PI / 180)),
+                    .radiometric = 7};
   light.solid_angle = 2 * static_cast<float>(M_PI) * light.one_minus_cos;
   return light;
 }
@@ -284,14 +276,12 @@ TEST(EmissionSamplers, WideSpot)
 /// A rectangle of 1.2 by 0.6 that faces between the targets, with one of them partly behind it.
 DeviceLight panel()
 {
-  DeviceLight light{};
-  light.type = LIGHT_AREA;
-  light.radiometric = 7;
-  light.position = device({-0.2, 0.1, 0.2});
-  light.direction = device(glm::normalize(glm::dvec3(1, 0, -1)));
-  light.edge_u = device(1.2 * glm::normalize(glm::dvec3(1, 0, 1)));
-  light.edge_v = device({0, 0.6, 0});
-  return light;
+  return {.position = device({-0.2, 0.1, 0.2}),
+          .direction = device(glm::normalize(glm::dvec3(1, 0, -1))),
+          .edge_u = device(1.2 * glm::normalize(glm::dvec3(1, 0, 1))),
+          .edge_v = device({0, 0.6, 0}),
+          .type = LIGHT_AREA,
+          .radiometric = 7};
 }
 
 /// Power through a cell of directions is P cos(theta) / pi a steradian from each point of the light, where that meets a target.
@@ -342,9 +332,7 @@ TEST(EmissionSamplers, AreaLightPlaces)
 // Places in the plane across the light's direction; every cell of a target's shadow carries E times its area in square metres.
 TEST(EmissionSamplers, DirectionalLight)
 {
-  DeviceLight light{};
-  light.type = LIGHT_DIRECTIONAL;
-  light.radiometric = 7;
+  DeviceLight light{.type = LIGHT_DIRECTIONAL, .radiometric = 7};
   const glm::dvec3 along = glm::normalize(glm::dvec3(0.3, -0.2, -1));
   light.direction = device(along);
   const glm::dvec3 x = glm::normalize(glm::cross(along, glm::dvec3(0, 1, 0))), y = glm::cross(along, x);

@@ -5,7 +5,6 @@
 #include "spectral/effort/emission_guide.h"
 #include "spectral/effort/emitters.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 #include "tracing/world.h"
 

@@ -6,7 +6,6 @@
 #include "tests/support/reference_photons.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 namespace nephroid::photons_test {
@@ -82,9 +81,7 @@ preset::Preset glass_preset()
   p.scene.objects = {object("ball", ball, "glass", at({-1.5, 1.5, 0})), object("diamond", diamond, "glass", at({1.5, 1.5, 0}, {20, 0, 15})),
                      object("mirror", quad(2, 2), "mirror", at({0, 1.5, -2}, {75, 0, 0})), object("floor", quad(40, 40), "floor")};
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
-  preset::Light light;
-  light.position = {0.5, 6, 3};
-  light.power_w = 10;
+  preset::Light light{.power_w = 10, .position = {0.5, 6, 3}};
   p.scene.lights = {light};
   p.scene.camera.position = {0, 9, 9};
   p.scene.camera.target = {0, 0, -0.5};

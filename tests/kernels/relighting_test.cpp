@@ -6,16 +6,10 @@
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
 #include "tests/support/statistics.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::relighting_test {
 
-preset::LightSpectrum illuminant(const std::string& name)
-{
-  preset::LightSpectrum spectrum;
-  spectrum.illuminant = name;
-  return spectrum;
-}
+preset::LightSpectrum illuminant(const std::string& name) { return {.illuminant = name}; }
 
 /// A ball of dispersing glass over a floor of coloured tiles, which the camera sees beside the ball and through it; two lamps, the second
 /// of which is dark.
@@ -98,7 +92,7 @@ preset::Preset fresh_run(preset::Preset p)
 }
 
 /// The ball's glass bends all wavelengths alike and is from clear at 380 nm to exp(-9) over its radius at 780 nm.
-preset::Preset dyed_scene(const std::filesystem::path& folder)
+preset::Preset dyed_scene(const fs::path& folder)
 {
   preset::Preset p = tiled_scene();
   const double k = 9 * 780e-9 / (4 * M_PI * p.scene.objects[0].shape->radius);
@@ -199,8 +193,7 @@ TEST(Relighting, TheDrawOfTheErrorHasThePicturesScatter)
     const auto job = job_of(p);
     while (job->progress().step < 2) job->step();
     ASSERT_TRUE(job->adopt(other));
-    while (!job->finished()) job->step();
-    const job::Snapshot snapshot = job->snapshot();
+    const job::Snapshot snapshot = render(*job);
     ASSERT_FALSE(snapshot.picture->error_draw.empty());
     for (const float d : snapshot.picture->error_draw) draws += double(d) * d / runs;
     pictures.push_back(snapshot.picture->rgb);
@@ -226,9 +219,7 @@ TEST(Relighting, ACheckpointGoesOnToTheSameBits)
   const std::vector<std::byte> saved = test::saved(*straight);
   const auto resumed = job_of(other);
   test::load(*resumed, saved);
-  while (!straight->finished()) straight->step();
-  while (!resumed->finished()) resumed->step();
-  const job::Snapshot a = straight->snapshot(), b = resumed->snapshot();
+  const job::Snapshot a = render(*straight), b = render(*resumed);
   EXPECT_EQ(a.picture->rgb, b.picture->rgb);
   EXPECT_EQ(spectral::energy_of(a).emitted_w, spectral::energy_of(b).emitted_w);
 }
@@ -252,8 +243,7 @@ TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers)
   preset::Preset p = layered(ball_scene());
   p.scene.objects.pop_back(); // no diffuse surface
   p.stop.passes = 1;
-  tracing::LeaveOut leave_out;
-  leave_out.direct = leave_out.photons = false;
+  tracing::LeaveOut leave_out{.direct = false, .photons = false};
   const job::Snapshot snapshot = render(*job_of(p, leave_out));
   for (const float value : snapshot.picture->rgb) ASSERT_EQ(value, 0);
 }
@@ -266,8 +256,8 @@ TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory)
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const spectral::RunPlan plan = spectral::make_plan(p, scene, bvh);
   const auto job = spectral::make_job(p, scene, bvh, plan, shared_context());
-  EXPECT_THAT(plan.passes, testing::Not(testing::Contains(testing::Field(&plan::Pass::name, "dark lights")))) << "it is kept";
-  EXPECT_THAT(plan.passes, testing::Contains(testing::Field(&plan::Pass::name, "relighting")));
+  EXPECT_THAT(plan.passes, Not(Contains(testing::Field(&plan::Pass::name, "dark lights")))) << "it is kept";
+  EXPECT_THAT(plan.passes, Contains(testing::Field(&plan::Pass::name, "relighting")));
   std::uint64_t films = 0;
   for (const plan::PlannedBuffer& b : plan.buffers)
     if (b.name.starts_with("film ")) films += b.bytes;

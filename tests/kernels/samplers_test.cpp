@@ -4,7 +4,6 @@
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 namespace nephroid::samplers_test {
@@ -186,8 +185,7 @@ TEST(Uniforms, WrongOnesAreFound)
 
 TEST(AreaPoint, FillsTheRectangleEvenly)
 {
-  shared::DeviceLight light{};
-  light.position = {3, -2, 1, 0};
+  shared::DeviceLight light{.position = {3, -2, 1, 0}};
   light.edge_u = {0.6f, 0.8f, 0, 0}; // of length 1 and 2, at right angles
   light.edge_v = {-0.96f, 0.72f, 1.6f, 0};
   light.type = LIGHT_AREA;
@@ -210,14 +208,13 @@ TEST(AreaPoint, FillsTheRectangleEvenly)
 // Directions, projected back, fall into their own pixel and fill its square evenly, the same in every part of the picture.
 TEST(CameraJitter, FillsThePixel)
 {
-  shared::DeviceCamera camera{};
-  camera.right = {1, 0, 0, 0};
-  camera.up = {0, 0.6f, 0.8f, 0};
-  camera.forward = {0, 0.8f, -0.6f, 0};
-  camera.tan_x = 0.8f;
-  camera.tan_y = 0.5f;
-  camera.width = 32;
-  camera.height = 16;
+  shared::DeviceCamera camera{.right = {1, 0, 0, 0},
+                              .up = {0, 0.6f, 0.8f, 0},
+                              .forward = {0, 0.8f, -0.6f, 0},
+                              .tan_x = 0.8f,
+                              .tan_y = 0.5f,
+                              .width = 32,
+                              .height = 16};
   Column across, down;
   const std::vector<float4> directions = draw<float4>("camera_directions", {{"camera", camera}, {"seed", seed}});
   int strays = 0;

@@ -3,7 +3,6 @@
 // that is seen there. The truth is the map's definition (scene/environment.h), written here anew in double precision.
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 #include "tracing/scene_tables.h"
 
@@ -32,10 +31,7 @@ constexpr std::uint32_t count = 1 << 20;
 
 scene::Environment uneven(int width, int height)
 {
-  scene::Environment map;
-  map.width = width;
-  map.height = height;
-  map.rotate_deg = 50;
+  scene::Environment map{.width = width, .height = height, .rotate_deg = 50};
   for (int i = 0; i < width * height; ++i)
     for (int c = 0; c < 3; ++c) map.rgb.push_back(i % 5 == 4 ? 0.0f : static_cast<float>(0.2 + (i * 7 + c) % 4));
   return map;

@@ -103,8 +103,7 @@ class Trace : public testing::Test {
 protected:
   static scene::Mesh triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
   {
-    scene::Mesh mesh;
-    mesh.positions = {a, b, c};
+    scene::Mesh mesh{.positions = {a, b, c}};
     mesh.triangles.emplace_back(0, 1, 2);
     return mesh;
   }

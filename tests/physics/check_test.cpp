@@ -4,7 +4,7 @@
 // wrong compiler would make them.
 #include "check/check.h"
 #include "engine/engine.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/test_kernels.h"
 
 #include <nlohmann/json.hpp>

@@ -6,7 +6,6 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::environment_light_test {
 

@@ -4,7 +4,6 @@
 #include "optics/fresnel.h"
 #include "spectral/clusters/clusters.h"
 #include "tests/support/extremes.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/test_kernels.h"
 
 namespace nephroid::extreme_glass_test {

@@ -4,7 +4,6 @@
 #include "optics/fresnel.h"
 #include "tests/support/extremes.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::extreme_places_test {
 

@@ -3,7 +3,6 @@
 // all, glass that absorbs all, single pixels and photons. docs/notebook/extremes.md has the table.
 #include "image/image.h"
 #include "tests/support/extreme_waves.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::extreme_surroundings_test {
 

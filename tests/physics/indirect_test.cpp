@@ -4,7 +4,6 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::indirect_test {
 

@@ -4,7 +4,6 @@
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/render.h"
-#include "tests/support/test.h"
 #include "tracing/targets.h"
 
 namespace nephroid::leaving_out_test {

@@ -14,7 +14,6 @@
 // point.
 #include "optics/fresnel.h"
 #include "tests/support/closed_form.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::nephroid_test {
 

@@ -5,7 +5,6 @@
 #include "optics/spectrum.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/render.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/test_kernels.h"
 
 namespace nephroid::slab_test {

@@ -5,7 +5,6 @@
 #include "optics/fresnel.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::smooth_receiver_test {
 

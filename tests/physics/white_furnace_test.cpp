@@ -9,7 +9,6 @@
 // and what comes back to it. So direct + caustic = rho L (1 - r).
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::white_furnace_test {
 

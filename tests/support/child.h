@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the built program, or another, as a child process, the way a person or a script does: arguments, environment, folder, signals.
 #pragma once
-#include "tests/support/eventually.h"
 #include "tests/support/process_state.h"
 
 #include <csignal>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <optional>
-#include <string>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <vector>
 
 namespace nephroid::test {
 
@@ -28,19 +20,16 @@ struct Ended {
 using Environment = std::map<std::string, std::optional<std::string>>;
 
 /// Bakes, references and thumbnails below a folder of the program's own.
-inline Environment own_cache(const std::filesystem::path& folder)
-{
-  return {{"XDG_CACHE_HOME", folder.string()}, {"POCL_CACHE_DIR", kernel_cache()}};
-}
+inline Environment own_cache(const fs::path& folder) { return {{"XDG_CACHE_HOME", folder.string()}, {"POCL_CACHE_DIR", kernel_cache()}}; }
 
 class Child {
 public:
   /// Starts the program in `folder`, with its output going to files in `logs`. It is killed where the test is.
-  Child(const std::vector<std::string>& arguments, const std::filesystem::path& folder, const std::filesystem::path& logs,
-        const Environment& environment = {}, const std::string& program = NEPHROID_PROGRAM)
+  Child(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& logs, const Environment& environment = {},
+        const std::string& program = NEPHROID_PROGRAM)
       : out_(logs / "stdout"), err_(logs / "stderr")
   {
-    for (const auto& file : {out_, err_}) std::filesystem::remove(file); // what a child before this one printed
+    for (const auto& file : {out_, err_}) fs::remove(file); // what a child before this one printed
     pid_ = ::fork();
     if (pid_ != 0) return;
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -95,18 +84,18 @@ public:
   }
 
 private:
-  static std::string text_of(const std::filesystem::path& file)
+  static std::string text_of(const fs::path& file)
   {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
   pid_t pid_ = -1;
-  std::filesystem::path out_, err_;
+  fs::path out_, err_;
 };
 
 /// Runs the program to its end.
-inline Ended nephroid(const std::vector<std::string>& arguments, const std::filesystem::path& folder, const std::filesystem::path& logs,
+inline Ended nephroid(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& logs,
                       const Environment& environment = {})
 {
   return Child(arguments, folder, logs, environment).wait();

@@ -7,10 +7,7 @@
 #include "scene/scene.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 #include "tracing/targets.h"
-
-#include <cstdio>
 
 namespace nephroid::test {
 
@@ -60,11 +57,11 @@ struct Screen {
   }
   void fill(preset::Camera& camera, double height) const
   {
-    camera.position = {centre[0], centre[1] + height, centre[2]};
-    camera.target = centre;
-    camera.up = {0, 0, -1};
-    camera.fov_deg = 2 * std::atan(side / 2 / height) / degree;
-    camera.resolution = {pixels, pixels};
+    camera = {.position = {centre[0], centre[1] + height, centre[2]},
+              .target = centre,
+              .up = {0, 0, -1},
+              .fov_deg = 2 * std::atan(side / 2 / height) / degree,
+              .resolution = {pixels, pixels}};
   }
 };
 
@@ -88,7 +85,7 @@ inline std::vector<double> watts(const job::Snapshot& snapshot, const std::strin
 }
 
 /// A tabulated dispersion file of one n and one k at all wavelengths.
-inline std::string write_constant_nk(const std::filesystem::path& file, double n, double k)
+inline std::string write_constant_nk(const fs::path& file, double n, double k)
 {
   std::ofstream(file) << "DATA:\n  - type: tabulated nk\n    data: |\n        0.3 " << n << " " << k << "\n        0.9 " << n << " " << k
                       << "\n";
@@ -98,11 +95,7 @@ inline std::string write_constant_nk(const std::filesystem::path& file, double n
 /// Parallel light of 1 W/m^2 and 550 nm.
 inline preset::Light parallel_light(const preset::Vec3& direction)
 {
-  preset::Light light;
-  light.type = preset::Light::Type::directional;
-  light.spectrum = line(550);
-  light.direction = direction;
-  return light;
+  return {.type = preset::Light::Type::directional, .spectrum = line(550), .direction = direction};
 }
 inline optics::Spectrum spectrum_of(const preset::Light& light) { return optics::light_lines(light.spectrum.table); }
 

@@ -5,11 +5,6 @@
 #include "scene/scene.h"
 #include "tests/support/ellipsoids.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <vector>
-
 namespace nephroid::test {
 
 /// What a path meets, one after the other; the last is where it ends.

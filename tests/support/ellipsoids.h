@@ -2,10 +2,7 @@
 // Rays and ellipsoids by the plain quadratic, in long double: what the tracers' own way of solving it is judged by.
 #pragma once
 #include "scene/mesh.h"
-
-#include <array>
-#include <cmath>
-#include <limits>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

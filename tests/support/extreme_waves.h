@@ -5,11 +5,6 @@
 #include "tests/support/extremes.h"
 #include "tests/support/passes.h"
 
-#include <algorithm>
-#include <cstdint>
-#include <string>
-#include <vector>
-
 namespace nephroid::test {
 
 /// A dispersing ball above the camera, so that it is not seen, and its caustic on the floor; the picture is 4 m of it. 2^18 photons.

@@ -2,7 +2,6 @@
 // Extreme cases as rows of a table: what is extreme, what came out, what is right and how that is known. Where the environment variable
 // NEPHROID_EXTREMES_TABLE names a file, every case appends its row to it: docs/notebook/extremes.md is made of these.
 #pragma once
-#include "base/error.h"
 #include "preset/preset.h"
 #include "preset/read.h"
 #include "scene/scene.h"
@@ -11,7 +10,6 @@
 #include "tests/support/closed_form.h"
 #include "tests/support/presets.h"
 #include "tests/support/render.h"
-#include "tests/support/test.h"
 
 namespace nephroid::test {
 
@@ -120,8 +118,7 @@ inline preset::Preset lit_floor(int pixels = 16)
   p.scene.lights.resize(1);
   p.scene.lights[0].spectrum = line(550);
   p.scene.lights[0].position = {0.1, 1, -0.2};
-  Screen screen;
-  screen.pixels = pixels;
+  Screen screen{.pixels = pixels};
   screen.fill(p.scene.camera, 2);
   spectral::settings(p).direct = true;
   spectral::settings(p).pixel_samples = 16;

@@ -5,11 +5,8 @@
 #include "preset/preset.h"
 #include "spectral/settings.h"
 #include "tests/support/presets.h"
+#include "tests/support/standard.h"
 #include "tracing/scene_tables.h"
-
-#include <ostream>
-#include <string>
-#include <vector>
 
 namespace nephroid::test {
 
@@ -42,9 +39,7 @@ inline preset::Preset ball_scene()
   p.scene.materials["white"] = white(0.8);
   preset::Shape ball;
   p.scene.objects = {object("ball", ball, "glass", at({0, 1, 0})), object("floor", quad(8, 8), "white")};
-  preset::Light light;
-  light.position = {0.3, 2.5, 0.2};
-  light.power_w = 10;
+  preset::Light light{.power_w = 10, .position = {0.3, 2.5, 0.2}};
   p.scene.lights = {light};
   p.scene.camera.position = {0, 3, 3};
   p.scene.camera.target = {0, 0.3, 0};

@@ -4,35 +4,26 @@
 #include "preset/preset.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "tests/support/errors.h"
 #include "tests/support/test.h"
 
 namespace nephroid::test {
 
-inline preset::Object shape_object(const std::string& name, preset::Shape::Type type, const std::string& material)
+inline preset::Object shape_object(const std::string& name, preset::Shape::Type type, const std::string& material,
+                                   const preset::Transform& transform = {})
 {
-  preset::Object object;
-  object.name = name;
-  object.shape = preset::Shape{};
-  object.shape->type = type;
-  object.material = material;
-  return object;
+  return {.name = name, .shape = preset::Shape{.type = type}, .material = material, .transform = transform};
 }
 
 /// A glass ball of diameter 1 at the origin over a wall, a point light above.
 inline preset::Preset ball_over_floor()
 {
-  preset::Preset preset;
-  preset.source = "p.json";
+  preset::Preset preset{.source = "p.json"};
   preset.scene.materials["glass"].type = preset::Material::Type::dielectric;
   preset.scene.materials["mirror"].type = preset::Material::Type::mirror;
   preset.scene.materials["wall"];
   preset.scene.objects = {shape_object("ball", preset::Shape::Type::sphere, "glass"),
-                          shape_object("floor", preset::Shape::Type::quad, "wall")};
-  preset.scene.objects[1].transform.scale = {10, 1, 10};
-  preset.scene.objects[1].transform.translate = {0, -1, 0};
-  preset.scene.lights.resize(1);
-  preset.scene.lights[0].position = {0, 3, 0};
+                          shape_object("floor", preset::Shape::Type::quad, "wall", {.scale = {10, 1, 10}, .translate = {0, -1, 0}})};
+  preset.scene.lights = {{.position = {0, 3, 0}}};
   return preset;
 }
 

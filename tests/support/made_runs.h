@@ -2,17 +2,11 @@
 // Folders of finished runs, made without rendering: what `nephroid run` leaves, with an error history whose slope, floor and times
 // are known. tests/hostile/report_test.cpp makes real ones.
 #pragma once
-#include "base/files.h"
 #include "image/image.h"
 #include "measure/history_file.h"
+#include "tests/support/test.h"
 
 #include <nlohmann/json.hpp>
-
-#include <cmath>
-#include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace nephroid::test {
 
@@ -58,10 +52,10 @@ inline nlohmann::ordered_json made_run_json(const std::string& name)
 }
 
 /// The run's files but history.csv and a reference; every pixel has the same value.
-inline void write_made_run(const std::filesystem::path& folder, const nlohmann::ordered_json& run_json,
+inline void write_made_run(const fs::path& folder, const nlohmann::ordered_json& run_json,
                            const nlohmann::ordered_json& preset = {{"seed", 1}}, int width = 4, int height = 3, float value = 0.5f)
 {
-  std::filesystem::create_directories(folder);
+  fs::create_directories(folder);
   const auto values = static_cast<std::size_t>(3 * width * height);
   image::write_exr(folder / "image.exr", {width, height, {"R", "G", "B"}, std::vector<float>(values, value), {}});
   write_file_whole(folder / "preset.json", preset.dump());
@@ -72,7 +66,7 @@ inline void write_made_run(const std::filesystem::path& folder, const nlohmann::
 }
 
 /// A run with an error of factor / sqrt(t) against the reference `origin`, whose noise floor is `floor`.
-inline void write_measured_run(const std::filesystem::path& folder, const std::string& name, double factor, double floor = 0,
+inline void write_measured_run(const fs::path& folder, const std::string& name, double factor, double floor = 0,
                                const std::string& origin = "reference.exr")
 {
   nlohmann::ordered_json run_json = made_run_json(name);

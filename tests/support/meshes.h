@@ -2,13 +2,9 @@
 // Meshes and rays that kernel tests and benchmarks share.
 #pragma once
 #include "scene/mesh.h"
+#include "tests/support/standard.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <glm/gtc/constants.hpp>
-#include <random>
-#include <string>
 
 namespace nephroid::test {
 

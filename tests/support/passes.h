@@ -6,11 +6,6 @@
 
 #include <boost/math/distributions/students_t.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <vector>
-
 namespace nephroid::test {
 
 /// A mean over passes.

@@ -3,12 +3,7 @@
 // metrics were printed for these.
 #pragma once
 #include "measure/metrics.h"
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

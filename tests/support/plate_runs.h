@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A test that runs the program on a small preset, into folders of a folder of its own.
 #pragma once
-#include "base/files.h"
 #include "tests/support/child.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test.h"
 
 #include <nlohmann/json.hpp>
 
@@ -13,7 +10,7 @@ namespace nephroid::test {
 class PlateRuns : public testing::Test {
 protected:
   TemporaryFolder scratch;
-  std::filesystem::path logs = scratch.path();
+  fs::path logs = scratch.path();
 
   /// The command line of a run into the folder `name`: a plate of glass, which needs no mesh file, in passes of a few milliseconds.
   std::vector<std::string> into(const std::string& name, const std::vector<std::string>& more) const
@@ -28,7 +25,7 @@ protected:
   {
     return nephroid(into(name, more), scratch.path(), logs, environment);
   }
-  std::filesystem::path file(const std::string& name) const { return scratch.path() / name; }
+  fs::path file(const std::string& name) const { return scratch.path() / name; }
   nlohmann::json run_json(const std::string& name) const { return nlohmann::json::parse(read_file(file(name) / "run.json")); }
 };
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a test changes of its process, which other tests share: put back when the object goes.
 #pragma once
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
-#include <string>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 
@@ -33,13 +30,13 @@ private:
 /// The current folder.
 class CurrentFolder {
 public:
-  explicit CurrentFolder(const std::filesystem::path& folder) { std::filesystem::current_path(folder); }
-  ~CurrentFolder() { std::filesystem::current_path(before_); }
+  explicit CurrentFolder(const fs::path& folder) { fs::current_path(folder); }
+  ~CurrentFolder() { fs::current_path(before_); }
   CurrentFolder(const CurrentFolder&) = delete;
   CurrentFolder& operator=(const CurrentFolder&) = delete;
 
 private:
-  std::filesystem::path before_ = std::filesystem::current_path();
+  fs::path before_ = fs::current_path();
 };
 
 /// Where PoCL keeps compiled kernels for all tests: a test that compiles them anew takes seconds more.
@@ -54,7 +51,7 @@ inline std::string kernel_cache()
 /// Where bakes, references and thumbnails are kept.
 class CacheHome {
 public:
-  explicit CacheHome(const std::filesystem::path& folder) : home_("XDG_CACHE_HOME", folder.string()) {}
+  explicit CacheHome(const fs::path& folder) : home_("XDG_CACHE_HOME", folder.string()) {}
 
 private:
   Variable kernels_{"POCL_CACHE_DIR", kernel_cache()}, home_;

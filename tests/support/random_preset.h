@@ -3,11 +3,7 @@
 #pragma once
 #include "preset/describe.h"
 #include "spectral/describe_settings.h"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

@@ -8,12 +8,6 @@
 #include "tests/support/ellipsoids.h"
 #include "tests/support/tracer.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <random>
-#include <vector>
-
 namespace nephroid::test {
 
 /// XYZ sums a pixel, and of their squares.

@@ -12,8 +12,6 @@
 #include "tests/support/presets.h"
 #include "tests/support/test_kernels.h"
 
-#include <memory>
-
 namespace nephroid::test {
 
 using check::layer;

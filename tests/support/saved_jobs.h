@@ -2,11 +2,7 @@
 // Jobs saved to memory and loaded from there.
 #pragma once
 #include "base/state.h"
-
-#include <cstddef>
-#include <span>
-#include <type_traits>
-#include <vector>
+#include "tests/support/test.h"
 
 namespace nephroid::test {
 

@@ -2,16 +2,9 @@
 // Statistical tests that hand back p-values: the chance of a result at least this far off where the code is right. A test fails below
 // `false_alarm`, so a few hundred of them raise one false alarm in some million runs with fresh seeds.
 #pragma once
-#include <boost/math/special_functions/gamma.hpp>
+#include "tests/support/test.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <numeric>
-#include <span>
-#include <stdexcept>
-#include <vector>
+#include <boost/math/special_functions/gamma.hpp>
 
 namespace nephroid::test {
 

@@ -5,14 +5,6 @@
 #include "image/image.h"
 #include "tests/support/statistics.h"
 
-#include <fmt/format.h>
-
-#include <array>
-#include <filesystem>
-#include <sstream>
-#include <string>
-#include <vector>
-
 namespace nephroid::test {
 
 /// Pictures are square, of this many pixels a side, in XYZ: those values are never negative and no photon weighs much more than another.
@@ -123,12 +115,9 @@ void for_each_block(Image& image, Visit visit)
 
 } // namespace stored_image
 
-inline void write_statistics(const std::filesystem::path& file, const StoredStatistics& stored)
+inline void write_statistics(const fs::path& file, const StoredStatistics& stored)
 {
-  image::Image image;
-  image.width = stored_size;
-  image.height = stored_image::height();
-  image.channels = stored_image::channels;
+  image::Image image{.width = stored_size, .height = stored_image::height(), .channels = stored_image::channels};
   image.data.assign(static_cast<std::size_t>(6 * image.width * image.height), 0.0f);
   stored_image::for_each_block(image, [&](std::size_t level, std::size_t i, float* values) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -142,7 +131,7 @@ inline void write_statistics(const std::filesystem::path& file, const StoredStat
   image::write_exr(file, image);
 }
 
-inline StoredStatistics read_statistics(const std::filesystem::path& file)
+inline StoredStatistics read_statistics(const fs::path& file)
 {
   image::Image image = image::read_image(file);
   if (image.width != stored_size || image.height != stored_image::height() || image.channels != stored_image::channels)

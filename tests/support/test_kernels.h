@@ -2,16 +2,12 @@
 // Which kernels tests run, and how a test runs OpenCL source that it brings with it, with the project's own headers beside it.
 #pragma once
 #include "compute/compute.h"
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
+#include "tests/support/standard.h"
 
 namespace nephroid::test {
 
 /// The folder of the kernels under test: NEPHROID_TEST_KERNELS, which tests/faults puts broken copies into, else the project's own.
-inline std::filesystem::path kernel_folder()
+inline fs::path kernel_folder()
 {
   const char* const folder = std::getenv("NEPHROID_TEST_KERNELS");
   return folder != nullptr ? folder : NEPHROID_SOURCE_DIR "/kernels";
@@ -30,16 +26,15 @@ class TestKernels {
 public:
   explicit TestKernels(const std::string& source)
   {
-    std::string name = (std::filesystem::temp_directory_path() / "nephroid-kernels-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / "nephroid-kernels-XXXXXX").string();
     folder_ = mkdtemp(name.data());
-    for (const auto& entry : std::filesystem::directory_iterator(kernel_folder()))
-      std::filesystem::create_symlink(std::filesystem::absolute(entry.path()), folder_ / entry.path().filename());
+    for (const auto& entry : fs::directory_iterator(kernel_folder()))
+      fs::create_symlink(fs::absolute(entry.path()), folder_ / entry.path().filename());
     std::ofstream(folder_ / "test.cl") << source;
-    compute::DeviceOptions options;
-    options.kernels = folder_;
+    compute::DeviceOptions options{.kernels = folder_};
     context_ = compute::Context::open(options);
   }
-  ~TestKernels() { std::filesystem::remove_all(folder_); }
+  ~TestKernels() { fs::remove_all(folder_); }
   TestKernels(const TestKernels&) = delete;
   TestKernels& operator=(const TestKernels&) = delete;
 
@@ -50,7 +45,7 @@ public:
   }
 
 private:
-  std::filesystem::path folder_;
+  fs::path folder_;
   compute::Context context_;
 };
 

@@ -2,14 +2,13 @@
 // kernels/tracing/trace.cl and Embree behind the same two structs, for tests and benchmarks that compare them.
 #pragma once
 #include "check/tracer.h"
+#include "tests/support/standard.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
 #endif
-
-#include <algorithm>
 
 namespace nephroid::test {
 

@@ -2,16 +2,6 @@
 // A virtual X display of a test's own: what is started on it, and the mouse and keys that xdotool plays to it.
 #pragma once
 #include "tests/support/child.h"
-#include "tests/support/temporary_folder.h"
-
-#include <fmt/format.h>
-
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace nephroid::test {
 
@@ -46,9 +36,9 @@ public:
   }
 
 private:
-  static std::filesystem::path made(const std::filesystem::path& folder)
+  static fs::path made(const fs::path& folder)
   {
-    std::filesystem::create_directory(folder);
+    fs::create_directory(folder);
     return folder;
   }
 

@@ -5,9 +5,6 @@
 #include "ui/widgets/action.h"
 #include "window_fixture.h"
 
-#include <functional>
-#include <string>
-
 namespace nephroid::test {
 
 class Desk : public HeadlessWindow<SceneRuns> {
@@ -24,6 +21,10 @@ public:
 
   const preset::Preset& preset() const { return *workbench.preset(); }
   const preset::Scene& scene() const { return preset().scene; }
+  const ui::Chosen& chosen() const { return workbench.chosen(); }
+  const ui::Settings& settings() const { return workbench.settings(); }
+  const ui::RunInHand& run() const { return workbench.run(); }
+  const auto& comparing() const { return workbench.comparing(); }
   std::string file() const { return (folder.path() / "test.json").string(); }
   void apply(ui::Command command)
   {

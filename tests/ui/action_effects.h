@@ -5,7 +5,6 @@
 #include "base/bytes.h"
 #include "engine/engine.h"
 #include "preset/read.h"
-#include "tests/support/test.h"
 #include "ui/shell/panels.h"
 
 #include <imgui_internal.h>
@@ -23,7 +22,13 @@ namespace effects {
 using namespace nephroid::ui;
 
 inline constexpr Selection lamp{Selection::Kind::light, 0};
-inline void select_lamp(Desk& d) { d.apply(command::Select{lamp}); }
+inline auto applies(Command command)
+{
+  return [command](Desk& d) { d.apply(command); };
+}
+inline const auto select_lamp = applies(command::Select{lamp}), pin = applies(command::PinRun{}),
+                  inspect_pixel = applies(command::InspectPixel{std::array{20, 20}}),
+                  give_sweep = applies(command::SetSweep{"sweep", {{"seed", {"1", "2"}}}});
 
 inline auto asks(Question question)
 {
@@ -62,11 +67,7 @@ inline void add_file_and_edit(Effects& all)
   all["Quit"] = {{}, [](Desk& d) { return d.workbench.quitting(); }};
 
   all["Undo"] = {[](Desk& d) { d.edit(); }, [](Desk& d) { return d.scene().camera.position[2] == 4; }};
-  all["Redo"] = {[](Desk& d) {
-                   d.edit();
-                   d.apply(command::Undo{});
-                 },
-                 [](Desk& d) { return d.scene().camera.position[2] == 3; }};
+  all["Redo"] = {[](Desk& d) { d.edit(), d.apply(command::Undo{}); }, [](Desk& d) { return d.scene().camera.position[2] == 3; }};
   all["Reset camera"] = {
       [](Desk& d) { d.edit(); },
       [](Desk& d) { return d.scene().camera.position[2] == 4 && d.workbench.edits()->undo_label() == "reset the camera"; }};
@@ -89,23 +90,23 @@ inline Effect nudges(std::size_t axis, int sign)
 inline Effect uses(Handles::Tool tool)
 {
   return {[tool](Desk& d) {
-            Handles handles = d.workbench.chosen().handles;
+            Handles handles = d.chosen().handles;
             handles.tool = tool == Handles::Tool::turn ? Handles::Tool::move : Handles::Tool::turn;
             d.apply(command::SetHandles{handles});
           },
-          [tool](Desk& d) { return d.workbench.chosen().handles.tool == tool; }};
+          [tool](Desk& d) { return d.chosen().handles.tool == tool; }};
 }
 inline Effect toggles(bool Handles::*member)
 {
-  return {{}, [member](Desk& d) { return d.workbench.chosen().handles.*member != d.before.chosen.handles.*member; }};
+  return {{}, [member](Desk& d) { return d.chosen().handles.*member != d.before.chosen.handles.*member; }};
 }
 
 inline void add_select_and_camera(Effects& all)
 {
-  const auto selects_last = [](Desk& d) { return d.workbench.chosen().selection == selectable(d.preset()).back(); };
-  all["Select the next"] = {{}, [](Desk& d) { return d.workbench.chosen().selection == selectable(d.preset()).front(); }};
+  const auto selects_last = [](Desk& d) { return d.chosen().selection == selectable(d.preset()).back(); };
+  all["Select the next"] = {{}, [](Desk& d) { return d.chosen().selection == selectable(d.preset()).front(); }};
   all["Select the one before"] = {{}, selects_last};
-  all["Deselect"] = {select_lamp, [](Desk& d) { return d.workbench.chosen().selection == Selection{}; }};
+  all["Deselect"] = {select_lamp, [](Desk& d) { return d.chosen().selection == Selection{}; }};
   all["Look at the selected"] = {select_lamp, [](Desk& d) { return d.scene().camera.target == d.scene().lights[0].position; }};
   all["Move"] = uses(Handles::Tool::move);
   all["Turn"] = uses(Handles::Tool::turn);
@@ -121,51 +122,40 @@ inline void add_select_and_camera(Effects& all)
   all["Nudge away"] = nudges(2, -1);
   all["Nudge nearer"] = nudges(2, 1);
 
-  all["Bookmark this camera"] = {{}, [](Desk& d) { return d.workbench.chosen().bookmarks.size() == d.before.chosen.bookmarks.size() + 1; }};
+  all["Bookmark this camera"] = {{}, [](Desk& d) { return d.chosen().bookmarks.size() == d.before.chosen.bookmarks.size() + 1; }};
+  const auto bookmark_nine = [](Desk& d) {
+    for (int bookmark = 1; bookmark <= 9; ++bookmark) d.edit(10 + bookmark), d.apply(command::AddBookmark{});
+    d.edit();
+  };
   for (int i = 1; i <= 9; ++i)
-    all[fmt::format("Go to camera {}", i)] = {[](Desk& d) {
-                                                for (int bookmark = 1; bookmark <= 9; ++bookmark) {
-                                                  d.edit(10 + bookmark);
-                                                  d.apply(command::AddBookmark{});
-                                                }
-                                                d.edit();
-                                              },
-                                              [i](Desk& d) { return d.scene().camera.position[2] == 10 + i; }};
+    all[fmt::format("Go to camera {}", i)] = {bookmark_nine, [i](Desk& d) { return d.scene().camera.position[2] == 10 + i; }};
 }
 
-inline void inspect_pixel(Desk& d) { d.apply(command::InspectPixel{std::array{20, 20}}); }
 inline Effect moves_pixel(int x, int y)
 {
-  return {inspect_pixel, [x, y](Desk& d) { return d.workbench.chosen().pixel == std::optional(std::array{20 + x, 20 + y}); }};
+  return {inspect_pixel, [x, y](Desk& d) { return d.chosen().pixel == std::optional(std::array{20 + x, 20 + y}); }};
 }
-inline void pin(Desk& d) { d.apply(command::PinRun{}); }
 inline Effect sets_tone(ToneCurve tone)
 {
   return {[tone](Desk& d) { d.look({.tone = tone == ToneCurve::filmic ? ToneCurve::standard : ToneCurve::filmic}); },
-          [tone](Desk& d) { return d.workbench.chosen().look.tone == tone; }};
+          [tone](Desk& d) { return d.chosen().look.tone == tone; }};
 }
 /// Pinned, so that there is something to compare with.
 inline void compare_with_pin(Desk& d)
 {
   pin(d);
-  d.apply(command::CompareWith{d.workbench.comparing().pinned().all().front().id});
+  d.apply(command::CompareWith{d.comparing().pinned().all().front().id});
 }
-
-inline void give_sweep(Desk& d) { d.apply(command::SetSweep{"sweep", {{"seed", {"1", "2"}}}}); }
 
 inline void add_run_and_view(Effects& all)
 {
-  const auto is = [](job::State state) { return [state](Desk& d) { return d.workbench.run().status().state == state; }; };
-  all["Start again"] = {{}, [](Desk& d) { return d.workbench.run().status().generation > d.before.run; }};
+  const auto is = [](job::State state) { return [state](Desk& d) { return d.run().status().state == state; }; };
+  all["Start again"] = {{}, [](Desk& d) { return d.run().status().generation > d.before.run; }};
   all["Pause"] = {{}, is(job::State::paused)};
   all["Cancel"] = {{}, is(job::State::cancelled)};
-  all["Pin this run"] = {{}, [](Desk& d) { return d.workbench.comparing().pinned().all().size() == 1; }};
+  all["Pin this run"] = {{}, [](Desk& d) { return d.comparing().pinned().all().size() == 1; }};
   all["Start the sweep"] = {give_sweep, [](Desk& d) { return d.workbench.sweep().active(); }};
-  all["Stop the sweep"] = {[](Desk& d) {
-                             give_sweep(d);
-                             d.apply(command::StartSweep{});
-                             EXPECT_TRUE(d.workbench.sweep().active());
-                           },
+  all["Stop the sweep"] = {[](Desk& d) { give_sweep(d), d.apply(command::StartSweep{}); },
                            [](Desk& d) { return !d.workbench.sweep().active(); }};
   all["Write a report..."] = {{}, asks(Question::save_report)};
   all["Show as glass"] = {
@@ -178,31 +168,28 @@ inline void add_run_and_view(Effects& all)
       },
       [](Desk& d) { return is_there(d.folder.path() / "test-object/view.json"); }};
 
-  all["Flip"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().flip; }};
-  all["Difference"] = {compare_with_pin, [](Desk& d) { return d.workbench.comparing().comparison().difference; }};
-  all["Compare with the next"] = {pin, [](Desk& d) { return d.workbench.comparing().comparison().pin != 0; }};
-  all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); }, [](Desk& d) { return d.workbench.chosen().look.fit; }};
-  all["Actual size"] = {{}, [](Desk& d) { return !d.workbench.chosen().look.fit && d.workbench.chosen().look.zoom == 1; }};
-  all["Brighter"] = {{}, [](Desk& d) { return d.workbench.chosen().look.exposure_stops == 0.5; }};
-  all["Darker"] = {{}, [](Desk& d) { return d.workbench.chosen().look.exposure_stops == -0.5; }};
-  all["Exposure 0"] = {[](Desk& d) { d.look({.exposure_stops = 3}); },
-                       [](Desk& d) { return d.workbench.chosen().look.exposure_stops == 0; }};
-  const auto shows_direct = [](Desk& d) { return d.workbench.comparing().comparison().layer == "direct"; };
+  all["Flip"] = {compare_with_pin, [](Desk& d) { return d.comparing().comparison().flip; }};
+  all["Difference"] = {compare_with_pin, [](Desk& d) { return d.comparing().comparison().difference; }};
+  all["Compare with the next"] = {pin, [](Desk& d) { return d.comparing().comparison().pin != 0; }};
+  all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); }, [](Desk& d) { return d.chosen().look.fit; }};
+  all["Actual size"] = {{}, [](Desk& d) { return !d.chosen().look.fit && d.chosen().look.zoom == 1; }};
+  all["Brighter"] = {{}, [](Desk& d) { return d.chosen().look.exposure_stops == 0.5; }};
+  all["Darker"] = {{}, [](Desk& d) { return d.chosen().look.exposure_stops == -0.5; }};
+  all["Exposure 0"] = {[](Desk& d) { d.look({.exposure_stops = 3}); }, [](Desk& d) { return d.chosen().look.exposure_stops == 0; }};
+  const auto shows_direct = [](Desk& d) { return d.comparing().comparison().layer == "direct"; };
   all["Next layer"] = {{}, shows_direct};
   all["Previous layer"] = {{}, shows_direct}; // there is one, so that both ways lead to it
-  all["Next tone curve"] = {{}, [](Desk& d) { return d.workbench.chosen().look.tone == ToneCurve::filmic; }};
+  all["Next tone curve"] = {{}, [](Desk& d) { return d.chosen().look.tone == ToneCurve::filmic; }};
   all["Tone as image.png"] = sets_tone(ToneCurve::standard);
   all["Filmic tone"] = sets_tone(ToneCurve::filmic);
   all["False colour"] = sets_tone(ToneCurve::false_colour);
-  all["Inspect pixel"] = {{}, [](Desk& d) { return d.workbench.chosen().pixel == std::optional(std::array{32, 24}); }};
+  all["Inspect pixel"] = {{}, [](Desk& d) { return d.chosen().pixel == std::optional(std::array{32, 24}); }};
   all["Pixel to the left"] = moves_pixel(-1, 0);
   all["Pixel to the right"] = moves_pixel(1, 0);
   all["Pixel above"] = moves_pixel(0, -1);
   all["Pixel below"] = moves_pixel(0, 1);
   all["Copy pixel"] = {inspect_pixel, copies("20")};
-  all["Statistics of the picture"] = {{}, [](Desk& d) {
-                                        return d.workbench.chosen().region == std::optional(PixelRegion{{0, 0}, {64, 48}});
-                                      }};
+  all["Statistics of the picture"] = {{}, [](Desk& d) { return d.chosen().region == std::optional(PixelRegion{{0, 0}, {64, 48}}); }};
 }
 
 /// Whether it is the panel that was brought to the front last.
@@ -226,26 +213,22 @@ inline Effect of_panel(const PanelEntry& entry)
   if (!can_close(entry)) return {prepare, [entry](Desk&) { return in_front(entry.title); }};
   return {prepare, [entry](Desk& d) {
             const std::string engine(d.preset().settings.engine());
-            const auto now = d.workbench.settings().engines.find(engine);
-            return now != d.workbench.settings().engines.end() && now->second.closed.contains(std::string(entry.name));
+            const auto now = d.settings().engines.find(engine);
+            return now != d.settings().engines.end() && now->second.closed.contains(std::string(entry.name));
           }};
 }
 
 inline void add_window_and_help(Effects& all)
 {
   for (const PanelEntry& entry : panel_table()) all[fmt::format("Panel: {}", entry.title)] = of_panel(entry);
-  all["Find a preset"] = {[](Desk& d) { d.apply(command::ShowPanel{"plan", true}); }, [](Desk&) { return in_front("Presets"); }};
-  all["Reset layout"] = {[](Desk& d) {
-                           d.apply(command::ShowPanel{"plan", false});
-                         },
-                         [](Desk& d) { return d.workbench.settings().engines.at("spectral").closed.empty(); }};
-  all["Light theme"] = {{}, [](Desk& d) { return d.workbench.settings().theme == Theme::light; }};
-  all["Larger text"] = {{}, [](Desk& d) { return d.workbench.settings().text_size > 1.05; }};
-  all["Smaller text"] = {{}, [](Desk& d) { return d.workbench.settings().text_size < 0.95; }};
-  all["Text as the display has it"] = {[](Desk& d) {
-                                         d.apply(command::SetAppearance{Theme::dark, 1.3});
-                                       },
-                                       [](Desk& d) { return d.workbench.settings().text_size == 1; }};
+  all["Find a preset"] = {applies(command::ShowPanel{"plan", true}), [](Desk&) { return in_front("Presets"); }};
+  all["Reset layout"] = {applies(command::ShowPanel{"plan", false}),
+                         [](Desk& d) { return d.settings().engines.at("spectral").closed.empty(); }};
+  all["Light theme"] = {{}, [](Desk& d) { return d.settings().theme == Theme::light; }};
+  all["Larger text"] = {{}, [](Desk& d) { return d.settings().text_size > 1.05; }};
+  all["Smaller text"] = {{}, [](Desk& d) { return d.settings().text_size < 0.95; }};
+  all["Text as the display has it"] = {applies(command::SetAppearance{Theme::dark, 1.3}),
+                                       [](Desk& d) { return d.settings().text_size == 1; }};
   all["Commands..."] = {{}, asks(Question::command)};
   all["Mouse and keys"] = {{}, [](Desk& d) { return d.workbench.help_shown(); }};
 }

@@ -4,8 +4,6 @@
 // written there.
 #include "action_desk.h"
 #include "action_effects.h"
-#include "base/files.h"
-#include "tests/support/test.h"
 #include "ui/shell/menus.h"
 #include "ui/widgets/action.h"
 
@@ -139,8 +137,8 @@ TEST(KeysPage, IsTheTableOfActions)
   ImGui::CreateContext(); // it names the keys
   const std::string page = keys_page();
   ImGui::DestroyContext();
-  if (const char* docs = std::getenv("NEPHROID_PICTURES")) write_file_whole(std::filesystem::path(docs) / "keys.md", page);
-  EXPECT_EQ(read_file(std::filesystem::path(NEPHROID_SOURCE_DIR) / "docs/keys.md"), page)
+  if (const char* docs = std::getenv("NEPHROID_PICTURES")) write_file_whole(fs::path(docs) / "keys.md", page);
+  EXPECT_EQ(read_file(fs::path(NEPHROID_SOURCE_DIR) / "docs/keys.md"), page)
       << "write it again: NEPHROID_PICTURES=$PWD/docs build/release/tests/ui/ui_tests --gtest_filter=KeysPage.*";
 }
 

@@ -182,18 +182,15 @@ TEST_F(AnnealingPanelTest, TheFinishedObjectIsShownAsGlass)
   run_through(test::inverse_text(1));
   click_widget("show as glass");
   ASSERT_TRUE(until([&] { return workbench.preset()->settings.engine() == "spectral"; }));
-  EXPECT_TRUE(std::filesystem::is_regular_file(folder.path() / "test-object" / "object.obj"));
-  EXPECT_EQ(std::filesystem::weakly_canonical(workbench.preset()->source),
-            std::filesystem::weakly_canonical(folder.path() / "test-object" / "view.json"));
+  EXPECT_TRUE(fs::is_regular_file(folder.path() / "test-object" / "object.obj"));
+  EXPECT_EQ(fs::weakly_canonical(workbench.preset()->source), fs::weakly_canonical(folder.path() / "test-object" / "view.json"));
   EXPECT_EQ(workbench.preset()->scene.objects.size(), 5u) << "the ground, and twice the object and its receiver";
   EXPECT_EQ(free_name(folder.path() / "test-object"), folder.path() / "test-object-2") << "what is there may be edited by now";
 }
 
 TEST_F(AnnealingPanelTest, AFacetIsOfTheMapsSizeOrNoBeam)
 {
-  inverse::Layout layout;
-  layout.facets = {2, 1};
-  layout.distances = {100};
+  inverse::Layout layout{.facets = {2, 1}, .distances = {100}};
   job::Picture slopes{2, 1, {0, 0, 1, 5, 0, 0.5f}, {}, {}};
   EXPECT_FALSE(facet_beam(slopes, layout, {2, 0}));
   EXPECT_FALSE(box_of(facet_beam(slopes, layout, {1, 0})->prints[0])) << "a slope of 5 misses it";

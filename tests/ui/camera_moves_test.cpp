@@ -3,7 +3,6 @@
 // which object is under the mouse, also after objects were moved.
 #include "scenes.h"
 #include "tests/support/loaded_scenes.h"
-#include "tests/support/test.h"
 #include "ui/view/camera.h"
 #include "ui/view/placement.h"
 #include "ui/view/sight.h"
@@ -16,12 +15,7 @@ constexpr double tolerance = 1e-9;
 
 preset::Camera at(double x, double y, double z)
 {
-  preset::Camera camera;
-  camera.position = {x, y, z};
-  camera.target = {0, 0, 0};
-  camera.fov_deg = 90;
-  camera.resolution = {200, 100};
-  return camera;
+  return {.position = {x, y, z}, .target = {0, 0, 0}, .fov_deg = 90, .resolution = {200, 100}};
 }
 
 glm::dvec3 vector(const preset::Vec3& v) { return {v[0], v[1], v[2]}; }
@@ -163,9 +157,7 @@ preset::Preset picked_preset()
   preset::Preset preset = test::ball_over_floor(); // 0: a ball of radius 0.5, 1: the floor at y = -1
   preset.scene.objects.push_back(test::shape_object("box", preset::Shape::Type::box, "wall"));
   preset.scene.objects[2].transform = {{0.5, 2, 0.4}, {10, 20, 30}, {1.2, 0, -0.3}};
-  preset.scene.camera.position = {0.5, 1, 4};
-  preset.scene.camera.target = {0.3, 0, 0};
-  preset.scene.camera.resolution = {64, 48};
+  preset.scene.camera = {.position = {0.5, 1, 4}, .target = {0.3, 0, 0}, .resolution = {64, 48}};
   return preset;
 }
 

@@ -49,13 +49,11 @@ TEST_F(CompareTest, APinnedRunStaysWhenThePresetIsEdited)
   EXPECT_EQ(workbench.comparing().pinned().all()[1].name, "Test: camera");
   EXPECT_NE(workbench.comparing().pinned().all()[1].colour, pinned.colour);
   // Hidden, the first is no longer in the plot; the second is.
-  workbench.apply({command::ChangePin{pinned.id, "far", pinned.colour, false}});
-  frame();
+  apply({command::ChangePin{pinned.id, "far", pinned.colour, false}});
   EXPECT_EQ(workbench.comparing().pinned().find(pinned.id)->name, "far");
   EXPECT_THAT(workspace.panel<ui::ErrorPanel>().contents().runs, SizeIs(2));
   EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().runs[0].name, "Test: camera");
-  workbench.apply({command::CompareWith{pinned.id}, command::Unpin{pinned.id}});
-  frame();
+  apply({command::CompareWith{pinned.id}, command::Unpin{pinned.id}});
   EXPECT_EQ(workbench.comparing().comparison().pin, 0u);
   EXPECT_THAT(workbench.comparing().pinned().all(), SizeIs(1));
   EXPECT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
@@ -166,7 +164,6 @@ TEST_F(CompareTest, WithoutAReferenceTheActionsSayWhy)
   EXPECT_FALSE(action("Difference").enabled(context()));
   EXPECT_THAT(action("Flip").why_not(context()), HasSubstr("the preset has no reference"));
   press(ImGuiKey_R);
-  frame();
   ASSERT_THAT(workbench.messages(), SizeIs(1));
   EXPECT_FALSE(workbench.messages()[0].error);
   EXPECT_THAT(workbench.messages()[0].line, StartsWith("Flip: the preset has no reference"));
@@ -197,7 +194,6 @@ TEST_F(CompareTest, ShowsTheDifferenceInFalseColour)
   frame();
   EXPECT_NEAR(first_texel()[0], measure::map_colour(1)[0], 2);
   press(ImGuiKey_D);
-  frames(2);
   EXPECT_EQ(first_texel(), (std::array{0, 0, 255}));
   EXPECT_TRUE(workbench.messages().empty());
 }
@@ -225,8 +221,7 @@ TEST_F(CompareTest, PicturesOfOtherSizesAreSaidNotCompared)
   frames(5);
   EXPECT_THAT(view().shown().hint, HasSubstr("32 x 32"));
   EXPECT_EQ(workbench.comparing().difference(), nullptr);
-  workbench.apply({command::Flip{}});
-  frames(2);
+  apply({command::Flip{}});
   EXPECT_THAT(view().shown().hint, HasSubstr("32 x 32"));
   EXPECT_TRUE(action("Difference").why_not(context()).size() > 10);
 }

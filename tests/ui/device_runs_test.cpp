@@ -7,19 +7,19 @@
 
 namespace nephroid::ui::device_runs_test {
 
-class EngineTest : public ::testing::Test {
+class EngineTest : public testing::Test {
 protected:
   test::TemporaryFolder folder;
-  const std::filesystem::path kernels = folder.path() / "kernels";
+  const fs::path kernels = folder.path() / "kernels";
 
-  EngineTest() { std::filesystem::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, std::filesystem::copy_options::recursive); }
+  EngineTest() { fs::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive); }
   compute::DeviceOptions options() const { return {.selector = "", .kernels = kernels}; }
   std::string source() const { return read_file(kernels / "spectral/direct.cl"); }
   /// In one step: a temporary file beside the kernels would be a change of its own.
   void write(const std::string& text) const
   {
     write_file_whole(folder.path() / "new.cl", text);
-    std::filesystem::rename(folder.path() / "new.cl", kernels / "spectral/direct.cl");
+    fs::rename(folder.path() / "new.cl", kernels / "spectral/direct.cl");
   }
 };
 

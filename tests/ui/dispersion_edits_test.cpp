@@ -5,8 +5,6 @@
 #include "optics/dispersion.h"
 #include "preset/read.h"
 #include "spectral/clusters/clusters.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
 #include "ui/spectral/dispersion/model.h"
 #include "ui/spectral/dispersion/panel.h"
 #include "ui/state/selection.h"
@@ -81,8 +79,6 @@ TEST(DispersionEdits, DielectricsThatObjectsUseComeFirst)
   EXPECT_EQ(shown_dielectric(preset::Preset{}, "glass"), "");
 }
 
-// ------------------------------------------------------------------------------------------------ what clusters mean
-
 /// The mean of asin(sin theta / n) over 0..89 degrees, in degrees, by the midpoint rule; n > 1.
 double mean_angle(double n)
 {
@@ -128,8 +124,7 @@ class DispersionFilesTest : public test::DispersionFixture {};
 TEST_F(DispersionFilesTest, FilesAreLoadedIntoTheGlassThatIsShown)
 {
   open_glass({{"a", from_points(five)}, {"glass", from_points(five)}});
-  workbench.apply({command::ChooseMaterial{"glass"}});
-  frames(2);
+  apply({command::ChooseMaterial{"glass"}});
   workbench.apply({command::Open{shipped("N-BK7")}}); // what dropping a file does
   frames(2);
   EXPECT_EQ(dispersion().file, shipped("N-BK7"));
@@ -147,11 +142,10 @@ TEST_F(DispersionFilesTest, AFileThatCannotBeLoadedIsAMessage)
   for (const std::string& bad : {folder.write("broken.yml", "DATA: ["), folder.write("empty.yaml", ""),
                                  folder.write("only-k.yml", "DATA:\n  - type: tabulated k\n    data: |\n      0.3 0.1\n      0.9 0.1\n"),
                                  (folder.path() / "missing.yml").string()}) {
-    workbench.apply({command::Open{bad}});
-    frames(2);
+    apply({command::Open{bad}});
     ASSERT_FALSE(workbench.messages().empty()) << bad;
     EXPECT_TRUE(workbench.messages().back().error);
-    EXPECT_THAT(last_message(workbench), HasSubstr(std::filesystem::path(bad).filename().string()));
+    EXPECT_THAT(last_message(workbench), HasSubstr(fs::path(bad).filename().string()));
     EXPECT_EQ(points(), five);
     EXPECT_FALSE(workbench.edits()->modified());
   }
@@ -202,8 +196,7 @@ TEST_F(DispersionFilesTest, ACurveThatIsNoneIsSaidAndNothingIsLost)
     click("Make editable");
     EXPECT_EQ(dispersion(), bad) << "greyed";
   }
-  workbench.apply({command::LoadDispersion{"N-BK7"}});
-  frames(3);
+  apply({command::LoadDispersion{"N-BK7"}});
   EXPECT_EQ(panel().model().error(), "");
 }
 

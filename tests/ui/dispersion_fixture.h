@@ -6,8 +6,6 @@
 #include "spectral/clusters/clusters.h"
 #include "window_fixture.h"
 
-#include <map>
-
 namespace nephroid::test {
 
 using spectral::ClusterMethod;
@@ -15,13 +13,7 @@ using ui::ControlPoint;
 
 inline std::string shipped(const std::string& name) { return std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"; }
 
-inline preset::Dispersion from_file(const std::string& file)
-{
-  preset::Dispersion dispersion;
-  dispersion.type = preset::Dispersion::Type::file;
-  dispersion.file = file;
-  return dispersion;
-}
+inline preset::Dispersion from_file(const std::string& file) { return {.type = preset::Dispersion::Type::file, .file = file}; }
 
 inline preset::Dispersion from_points(std::vector<ControlPoint> points) { return ui::with_points({}, std::move(points)); }
 

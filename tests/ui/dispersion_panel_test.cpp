@@ -45,6 +45,19 @@ TEST_F(DispersionPanelTest, ADragIsOneEntryAndClustersFollow)
   expect_true_counts();
 }
 
+TEST_F(DispersionPanelTest, TwoDragsAreTwoEntries)
+{
+  open_glass({{"glass", from_points(five)}});
+  drag_point(five[2], {560, 1.57});
+  const std::vector<ControlPoint> once = points();
+  drag_point(once[2], {570, 1.6});
+  ASSERT_NE(points(), once);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(points(), once);
+  press(ImGuiKey_Z, ImGuiMod_Ctrl);
+  EXPECT_EQ(points(), five);
+}
+
 TEST_F(DispersionPanelTest, PointsAreAddedAndRemoved)
 {
   open_glass({{"glass", from_points(five)}});
@@ -107,10 +120,7 @@ TEST_F(DispersionPanelTest, SeveralGlassesAreClusteredTogether)
     both.push_back(spectral::cluster_wavelengths(optics::sample_n(optics::load_dispersion(shipped(name)), optics::Outside::automatic), 0.05,
                                                  ClusterMethod::optimal));
   EXPECT_EQ(panel().model().clusters_of_run(), spectral::common_refinement(both).size());
-  preset::Preset edited = *workbench.preset();
-  spectral::settings(edited).method = ClusterMethod::brute_force;
-  spectral::settings(edited).step_nm = 4;
-  workbench.apply({command::Edit{"method", edited}});
+  edit([](preset::Preset& p) { spectral::settings(p).method = ClusterMethod::brute_force, spectral::settings(p).step_nm = 4; });
   frames(2);
   EXPECT_EQ(panel().model().clusters_of_run(), 101u);
   open_glass({{"glass", flint}});
@@ -122,14 +132,11 @@ TEST_F(DispersionPanelTest, IdleFramesRecomputeNothing)
   open_glass({{"glass", from_points(five)}, {"other", from_file(shipped("N-BK7"))}});
   const int curves = panel().model().curves_made(), clusterings = panel().model().clusterings_made();
   frames(10);
-  preset::Preset edited = *workbench.preset();
-  edited.scene.camera.position = {0, 0, 3};
-  workbench.apply({command::Edit{"camera", edited}});
+  edit([](preset::Preset& p) { p.scene.camera.position = {0, 0, 3}; });
   frames(10);
   EXPECT_EQ(panel().model().curves_made(), curves);
   EXPECT_EQ(panel().model().clusterings_made(), clusterings);
-  spectral::settings(edited).threshold_deg = 0.1;
-  workbench.apply({command::Edit{"threshold", edited}});
+  edit([](preset::Preset& p) { spectral::settings(p).threshold_deg = 0.1; });
   frames(3);
   EXPECT_EQ(panel().model().curves_made(), curves) << "the curve is the same";
   EXPECT_EQ(panel().model().clusterings_made(), clusterings + 1);
@@ -147,8 +154,6 @@ TEST_F(DispersionPanelTest, TheWavelengthsAreZoomedByTheWheel)
   frames(2);
   EXPECT_GT(panel().plot().to_screen({780, 1.55})[0] - panel().plot().to_screen({380, 1.55})[0], 1.1 * before);
 }
-
-// ------------------------------------------------------------------------------------------- what follows the mouse
 
 /// Twelve points that meet every n between 1.5 and 1.9 many times.
 std::vector<ControlPoint> wild()
@@ -197,6 +202,13 @@ TEST_F(DispersionPanelTest, AStepOfADragTakesLessThanAFrame)
 
 class RowDragsTest : public test::DispersionFixture {
 protected:
+  /// A point is in the middle of its drag.
+  void begin()
+  {
+    open_glass({{"glass", from_points(five)}});
+    take(five[2]);
+    drag_by(6, -6);
+  }
   /// The mouse holds the point; it was not moved yet.
   void take(const ControlPoint& point)
   {
@@ -221,9 +233,7 @@ private:
 
 TEST_F(RowDragsTest, ARightClickOnTheRowThatIsDraggedDoesNothing)
 {
-  open_glass({{"glass", from_points(five)}});
-  take(five[2]);
-  drag_by(6, -6);
+  begin();
   const std::vector<ControlPoint> before = points();
   ASSERT_NE(before, five);
   imgui.button(1, true);
@@ -242,9 +252,7 @@ TEST_F(RowDragsTest, ARightClickOnTheRowThatIsDraggedDoesNothing)
 
 TEST_F(RowDragsTest, DeleteEndsTheDrag)
 {
-  open_glass({{"glass", from_points(five)}});
-  take(five[2]);
-  drag_by(6, -6);
+  begin();
   imgui.key(ImGuiKey_Delete, true);
   frame();
   imgui.key(ImGuiKey_Delete, false);
@@ -264,9 +272,7 @@ TEST_F(RowDragsTest, DeleteEndsTheDrag)
 
 TEST_F(RowDragsTest, DeleteWhileTheMouseMovesRemovesToo)
 {
-  open_glass({{"glass", from_points(five)}});
-  take(five[2]);
-  drag_by(6, -6);
+  begin();
   imgui.key(ImGuiKey_Delete, true);
   drag_by(8, -8); // in the same frame
   imgui.key(ImGuiKey_Delete, false);
@@ -293,8 +299,7 @@ TEST_F(RowDragsTest, UndoOfAnAdditionEndsTheDrag)
   let_go();
   frames(2);
   EXPECT_EQ(points(), five);
-  workbench.apply({command::Redo{}});
-  frames(2);
+  apply({command::Redo{}});
   EXPECT_EQ(points().size(), 6u) << "what was undone can be redone: nothing was edited since";
 }
 

@@ -6,9 +6,6 @@
 #include "image/image.h"
 #include "preset/read.h"
 #include "tests/environment/maps.h"
-#include "tests/support/eventually.h"
-#include "tests/support/temporary_folder.h"
-#include "tests/support/test.h"
 #include "ui/environment/model.h"
 #include "ui/environment/picture.h"
 
@@ -16,7 +13,7 @@ namespace nephroid::ui::environment_model_test {
 
 using environment::SegmentMethod;
 
-class EnvironmentModelTest : public ::testing::Test {
+class EnvironmentModelTest : public testing::Test {
 protected:
   EnvironmentModelTest()
   {
@@ -93,7 +90,7 @@ TEST_F(EnvironmentModelTest, MakesAnewWhatAnEditChanges)
   edited([](preset::Preset& p) { environment::settings(p).segmentation = SegmentMethod::thesis; });
   EXPECT_EQ(model.shown().cut_error, before.quality[1][6]);
   edited([](preset::Preset& p) { environment::settings(p).threshold = 0.05; });
-  EXPECT_THAT(model.shown().cut->segmentation.lights, SizeIs(::testing::Lt(20u))) << "of 48";
+  EXPECT_THAT(model.shown().cut->segmentation.lights, SizeIs(Lt(20u))) << "of 48";
   EXPECT_EQ(model.maps_read(), 1);
   EXPECT_EQ(model.cuts_made(), 4);
   shown_of(preset, {MapLayout::cube, 80});
@@ -165,7 +162,7 @@ TEST_F(EnvironmentModelTest, AnOddShapeIsSaid)
   image::write_exr(folder.path() / "square.exr", {2, 2, {"R", "G", "B"}, std::vector<float>(12, 1), {}});
   const ShownMap shown = edited([](preset::Preset& p) { p.scene.environment->file = "square.exr"; });
   ASSERT_TRUE(shown.map && shown.cut);
-  EXPECT_THAT(shown.map->warnings, ::testing::ElementsAre(HasSubstr("2 x 2 texels")));
+  EXPECT_THAT(shown.map->warnings, ElementsAre(HasSubstr("2 x 2 texels")));
 }
 
 // A black map has no lights; nothing is wrong with it.

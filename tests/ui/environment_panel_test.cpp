@@ -81,6 +81,12 @@ protected:
     EXPECT_TRUE(at) << widget;
     return at.value_or(Point{});
   }
+  /// From its middle to the left by a quarter of its width.
+  void drag_map()
+  {
+    const auto& [x, y, width, height] = panel().map().area();
+    drag_by({x + width / 2, y + height / 2}, -width / 4);
+  }
   /// Where a direction of the map is drawn.
   Point seen(const glm::dvec3& direction) const { return panel().place_on_map(direction); }
   /// What is drawn as text in this frame has glyphs that no test reads; the panel's own words are read where they come from.
@@ -122,8 +128,7 @@ TEST_F(EnvironmentPanelTest, OtherEnginesTurnTheMapAndHaveNoLights)
   EXPECT_FALSE(has("lights") || has("method") || has("threshold"));
   ASSERT_TRUE(has("rotation") && has("radiance"));
   EXPECT_TRUE(panel().figures().empty());
-  const auto& [x, y, width, height] = panel().map().area();
-  drag_between({x + width / 2, y + height / 2}, {x + width / 4, y + height / 2});
+  drag_map();
   EXPECT_NEAR(rotation(), 90, 1);
 }
 
@@ -191,11 +196,11 @@ TEST_F(EnvironmentPanelTest, CausticsAreSwitched)
   click(place("on surfaces"));
   EXPECT_FALSE(settings().cast);
   EXPECT_EQ(workbench.edits()->undo_label(), "caustics on surfaces");
-  drag_between(place("extinction"), {place("extinction")[0] + 50, place("extinction")[1]});
+  drag_by(place("extinction"), 50);
   EXPECT_EQ(settings().extinction, 0) << "there is no medium yet";
   click(place("in the air"));
   EXPECT_NEAR(settings().extinction, 0.2 / std::sqrt(17), 1e-12);
-  drag_between(place("extinction"), {place("extinction")[0] + 50, place("extinction")[1]});
+  drag_by(place("extinction"), 50);
   EXPECT_GT(settings().extinction, 0.06);
   click(place("in the air"));
   EXPECT_EQ(settings().extinction, 0);
@@ -226,9 +231,8 @@ TEST_F(EnvironmentPanelTest, InTheCubeTheFrontFollowsTheMouse)
 TEST_F(EnvironmentPanelTest, AColourIsNotTurned)
 {
   open_map(R"({"type": "constant", "colour": [1, 0.5, 0.2]})");
-  const auto& [x, y, width, height] = panel().map().area();
-  drag_between({x + width / 2, y + height / 2}, {x + width / 4, y + height / 2});
-  drag_between(place("rotation"), {place("rotation")[0] + 50, place("rotation")[1]});
+  drag_map();
+  drag_by(place("rotation"), 50);
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
@@ -276,7 +280,7 @@ TEST_F(EnvironmentPanelTest, RadianceAndThresholdAreEdited)
 {
   open_map();
   const double flux = panel().figures().front().flux;
-  drag_between(place("radiance"), {place("radiance")[0] + 80, place("radiance")[1]});
+  drag_by(place("radiance"), 80);
   frame();
   const double radiance = workbench.preset()->scene.environment->radiance;
   EXPECT_GT(radiance, 1.2);
@@ -332,8 +336,7 @@ TEST_F(EnvironmentPanelTest, AMissingMapIsOneLineAndCanBeMended)
   rest();
   EXPECT_THAT(panel().shown().error, HasSubstr("gone.exr"));
   EXPECT_FALSE(panel().shown().cut);
-  const auto& [x, y, width, height] = panel().map().area();
-  drag_between({x + width / 2, y + height / 2}, {x + width / 4, y + height / 2}); // nothing to see, and nothing goes wrong
+  drag_map(); // nothing to see, and nothing goes wrong
   edit([&](preset::Preset& p) { p.scene.environment->file = "room.exr"; });
   rest();
   EXPECT_EQ(panel().shown().error, "");

@@ -5,7 +5,6 @@
 #include "image/image.h"
 #include "measure/history_file.h"
 #include "measure/run_curves.h"
-#include "tests/support/errors.h"
 #include "ui/error/lines.h"
 #include "window_fixture.h"
 
@@ -15,6 +14,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class ErrorPanelTest : public test::WindowFixture {
 protected:
+  const ErrorPanel& panel() const { return workspace.panel<ErrorPanel>(); }
   void hover(const std::array<double, 4>& area)
   {
     imgui.move(area[0] + area[2] / 2, area[1] + area[3] / 2);
@@ -25,37 +25,30 @@ protected:
 TEST_F(ErrorPanelTest, ThePlotFollowsTheRunInHand)
 {
   frames(3);
-  EXPECT_TRUE(workspace.panel<ui::ErrorPanel>().contents().runs.empty()) << "nothing is open";
+  EXPECT_TRUE(panel().contents().runs.empty()) << "nothing is open";
   run_measured();
-  const PlotContents& contents = workspace.panel<ui::ErrorPanel>().contents();
+  const PlotContents& contents = panel().contents();
   EXPECT_EQ(contents.metric, "lab_mean");
   ASSERT_THAT(contents.runs, SizeIs(1));
   EXPECT_EQ(contents.runs[0].lines->error.curve.seconds.size(), 20u);
-  const PlotRange& shown = workspace.panel<ui::ErrorPanel>().plot().shown();
+  const PlotRange& shown = panel().plot().shown();
   EXPECT_LT(shown.seconds[0], 0.01);
   EXPECT_GT(shown.seconds[1], 0.2);
-  workbench.apply({command::ChooseMetric{"rel_mse"}});
-  frame();
-  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "rel_mse");
-  workbench.apply({command::ChooseMetric{"flip"}});
-  frame();
-  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "lab_mean") << "no run has that one";
+  apply({command::ChooseMetric{"rel_mse"}});
+  EXPECT_EQ(panel().contents().metric, "rel_mse");
+  apply({command::ChooseMetric{"flip"}});
+  EXPECT_EQ(panel().contents().metric, "lab_mean") << "no run has that one";
 }
 
 TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
 {
-  auto nothing = std::make_shared<job::History>();
-  auto no_rows = falling_history(0);
-  auto one_row = falling_history(1);
-  auto all_nan = falling_history(5);
-  for (job::HistoryRow& row : all_nan->rows) row.errors = {nan, nan, nan};
-  auto same = falling_history(5); // all at one time and of one error
-  for (job::HistoryRow& row : same->rows) {
-    row.seconds = 1;
-    row.errors = {1, 1, 1};
-  }
-  auto zero = falling_history(5);
-  for (job::HistoryRow& row : zero->rows) row.errors = {0, 0, 0};
+  const auto all_of = [](double error) {
+    auto history = falling_history(5);
+    for (job::HistoryRow& row : history->rows) row.errors = {error, error, error};
+    return history;
+  };
+  auto same = all_of(1); // and all at one time
+  for (job::HistoryRow& row : same->rows) row.seconds = 1;
   auto psnr = falling_history(5);
   psnr->columns = {"psnr_db", "iw_ssim", "estimated_lab_mean"};
   psnr->error_column = "psnr_db";
@@ -63,19 +56,18 @@ TEST_F(ErrorPanelTest, HistoriesOfAnyKindAreDrawn)
   floor->noise_floor = {0.02, nan, nan};
   floor->target = 0.03;
   runs.steps = 2;
-  for (const auto& history : {nothing, no_rows, one_row, all_nan, same, zero, psnr, floor}) {
+  for (const auto& history :
+       {std::make_shared<job::History>(), falling_history(0), falling_history(1), all_of(nan), same, all_of(0), psnr, floor}) {
     runs.history = [&](int) { return history; };
     run_through();
-    workbench.apply({command::PinRun{}});
-    frames(2);
-    hover(workspace.panel<ui::ErrorPanel>().plot().area());
+    apply({command::PinRun{}});
+    hover(panel().plot().area());
     EXPECT_TRUE(workbench.messages().empty());
     EXPECT_EQ(workbench.run().error_history(), history);
   }
-  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().target, 0.03);
-  workbench.apply({command::ChooseMetric{"psnr_db"}});
-  frames(2);
-  EXPECT_EQ(workspace.panel<ui::ErrorPanel>().contents().metric, "psnr_db");
+  EXPECT_EQ(panel().contents().target, 0.03);
+  apply({command::ChooseMetric{"psnr_db"}});
+  EXPECT_EQ(panel().contents().metric, "psnr_db");
   EXPECT_TRUE(workbench.messages().empty());
 }
 
@@ -95,25 +87,24 @@ TEST_F(ErrorPanelTest, TenThousandRowsAreDrawnWithFewPoints)
 TEST_F(ErrorPanelTest, TheWheelLetsTheAxesGoAndADoubleClickTakesThemBack)
 {
   run_measured();
-  const PlotRange before = workspace.panel<ui::ErrorPanel>().plot().shown();
-  hover(workspace.panel<ui::ErrorPanel>().plot().area());
+  const PlotRange before = panel().plot().shown();
+  hover(panel().plot().area());
   for (int i = 0; i < 3; ++i) {
     imgui.wheel(1);
     frame();
   }
   frames(2);
-  EXPECT_FALSE(workspace.panel<ui::ErrorPanel>().plot().follows());
-  EXPECT_GT(workspace.panel<ui::ErrorPanel>().plot().shown().seconds[0], before.seconds[0]);
+  EXPECT_FALSE(panel().plot().follows());
+  EXPECT_GT(panel().plot().shown().seconds[0], before.seconds[0]);
   EXPECT_EQ(camera().position[2], 4) << "the wheel over the plot is the plot's";
   for (int click = 0; click < 2; ++click) {
     imgui.button(0, true);
     frame();
-    imgui.button(0, false);
-    frame();
+    let_go();
   }
   frames(2);
-  EXPECT_TRUE(workspace.panel<ui::ErrorPanel>().plot().follows());
-  EXPECT_NEAR(workspace.panel<ui::ErrorPanel>().plot().shown().seconds[0], before.seconds[0], 1e-9);
+  EXPECT_TRUE(panel().plot().follows());
+  EXPECT_NEAR(panel().plot().shown().seconds[0], before.seconds[0], 1e-9);
 }
 
 TEST(ErrorLines, HaveAMetricsErrorItsEstimateAndTheirSlopes)
@@ -134,18 +125,16 @@ TEST(ErrorLines, HaveAMetricsErrorItsEstimateAndTheirSlopes)
 
 TEST(ErrorLines, AnEstimateAloneIsWhatARunIsJudgedBy)
 {
-  job::History history;
-  history.columns = {"estimated_lab_mean"};
-  history.rows = {{1, 1, 1, 10, {0.5}}};
+  job::History history{.columns = {"estimated_lab_mean"}, .rows = {{1, 1, 1, 10, {0.5}}}};
   EXPECT_THAT(measure::metric_names(history), ElementsAre("lab_mean"));
   EXPECT_THAT(lines_of(history, "lab_mean").judged().curve.errors, ElementsAre(0.5));
 }
 
 TEST(ErrorLines, WhatHasNoLogarithmIsLeftOut)
 {
-  job::History history;
-  history.columns = {"psnr_db"};
-  history.rows = {{0, 0, 0, 0, {1}}, {1, 1, 1, 10, {nan}}, {2, 2, 2, 20, {0}}, {3, 3, 3, 30, {-4}}, {4, 4, 4, 40, {}}, {5, 5, 5, 50, {7}}};
+  job::History history{
+      .columns = {"psnr_db"},
+      .rows = {{0, 0, 0, 0, {1}}, {1, 1, 1, 10, {nan}}, {2, 2, 2, 20, {0}}, {3, 3, 3, 30, {-4}}, {4, 4, 4, 40, {}}, {5, 5, 5, 50, {7}}}};
   EXPECT_THAT(lines_of(history, "psnr_db").error.curve.seconds, ElementsAre(2, 3, 5)) << "on a linear axis";
   history.columns = {"lab_mean"};
   EXPECT_THAT(lines_of(history, "lab_mean").error.curve.seconds, ElementsAre(5)) << "on a logarithmic one";
@@ -174,7 +163,7 @@ TEST(ErrorLines, ManyRowsAreThinnedButKeepTheirExtremes)
   EXPECT_EQ(line.curve.seconds.size(), 10000u);
   EXPECT_LE(line.drawn.seconds.size(), 4u * 501);
   EXPECT_TRUE(std::is_sorted(line.drawn.seconds.begin(), line.drawn.seconds.end()));
-  EXPECT_THAT(line.drawn.errors, ::testing::IsSupersetOf({7.0, 1e-9}));
+  EXPECT_THAT(line.drawn.errors, IsSupersetOf({7.0, 1e-9}));
   EXPECT_EQ(line.drawn.seconds.back(), line.curve.seconds.back());
 }
 
@@ -219,9 +208,7 @@ TEST(ErrorLines, AxesHoldEveryPointAndTheTarget)
   EXPECT_GT(range.errors[1], 0.11);
   const PlotRange none = plot_range({}, {});
   EXPECT_LT(none.seconds[0], none.seconds[1]);
-  job::History one;
-  one.columns = {"lab_mean"};
-  one.rows = {{1, 1, 1, 10, {0.5}}};
+  job::History one{.columns = {"lab_mean"}, .rows = {{1, 1, 1, 10, {0.5}}}};
   const RunLines dot = lines_of(one, "lab_mean");
   const RunLines* dots[] = {&dot};
   const PlotRange about = plot_range(dots, {});
@@ -231,10 +218,9 @@ TEST(ErrorLines, AxesHoldEveryPointAndTheTarget)
 
 TEST(ErrorLines, CopyAsCsv)
 {
-  job::History history;
-  history.columns = {"lab_mean", "estimated_lab_mean"};
-  history.rows = {{1.5, 2, 1, 10, {0.5, nan}}, {3, 4, 2, 20, {0.25, 0.3}}};
-  history.noise_floor = {0.125, nan};
+  job::History history{.columns = {"lab_mean", "estimated_lab_mean"},
+                       .rows = {{1.5, 2, 1, 10, {0.5, nan}}, {3, 4, 2, 20, {0.25, 0.3}}},
+                       .noise_floor = {0.125, nan}};
   const NamedLines named[] = {{"a \"b\"", lines_of(history, "lab_mean")}};
   EXPECT_EQ(plot_csv(named, 0.0625), "run,line,seconds,error\n"
                                      "\"a \"\"b\"\"\",error,1.5,0.5\n\"a \"\"b\"\"\",error,3,0.25\n\"a \"\"b\"\"\",estimate,3,0.3\n"
@@ -302,7 +288,7 @@ TEST(PinnedRuns, TheNoiseFloorOfARunsFolderIsRead)
 TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
 {
   test::TemporaryFolder folder;
-  const auto refusal = [](const std::filesystem::path& path) { return refusal_of([&] { read_pin(path); }); };
+  const auto refusal = [](const fs::path& path) { return refusal_of([&] { read_pin(path); }); };
   EXPECT_THAT(refusal(folder.path()), HasSubstr("history.csv"));
   EXPECT_THAT(refusal(folder.path() / "none"), HasSubstr("none: there is no such run; expected the folder of a run"));
   EXPECT_THAT(refusal(folder.write("a.png", "no picture")), HasSubstr("a.png: is no run's history; expected the folder of a run"));

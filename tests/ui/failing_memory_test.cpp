@@ -45,7 +45,7 @@ using Edit = std::function<void(preset::Preset&)>;
 
 const std::string environment_text = test::lamps_text("[32, 24]", R"("photons": 2048, "spheres": 2, "resolution": 16)");
 
-class FailingMemory : public ::testing::Test {
+class FailingMemory : public testing::Test {
 protected:
   ~FailingMemory() override { allocations_left = launches_left = -1; }
 

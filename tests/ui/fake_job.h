@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A job without a device for tests of the window: its picture is one colour that tells which camera it was made for.
 #pragma once
-#include "base/error.h"
-#include "base/files.h"
 #include "engine/engine.h"
 #include "job/job.h"
 #include "measure/measured_job.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "spectral/energy.h"
-#include "tests/support/eventually.h"
-#include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 #include "ui/state/workbench.h"
 
@@ -64,13 +60,11 @@ public:
   bool finished() const override { return done_ >= runs_.steps; }
   job::Progress progress() const override
   {
-    job::Progress p;
-    p.step = done_;
-    p.steps = runs_.steps;
-    p.fraction = static_cast<double>(done_) / runs_.steps;
-    p.work = 1000 * static_cast<std::uint64_t>(done_);
-    p.work_seconds = 0.002 * done_;
-    return p;
+    return {.fraction = static_cast<double>(done_) / runs_.steps,
+            .step = done_,
+            .steps = runs_.steps,
+            .work = 1000 * static_cast<std::uint64_t>(done_),
+            .work_seconds = 0.002 * done_};
   }
   job::Snapshot snapshot() override
   {
@@ -81,11 +75,8 @@ public:
     for (std::size_t i = 0; i < pixels; ++i)
       for (double c : preset_.scene.camera.position) picture->rgb.push_back(static_cast<float>(c));
     picture->layers = {{"direct", picture->rgb}};
-    job::Snapshot made;
-    made.picture = picture;
-    made.whole = done_ >= runs_.whole_from;
-    made.progress = progress();
-    made.phases = {{"photons", 0.002 * done_}};
+    job::Snapshot made{
+        .picture = picture, .whole = done_ >= runs_.whole_from, .progress = progress(), .phases = {{"photons", 0.002 * done_}}};
     if (!preset_.scene.lights.empty())
       made.scalars.push_back({"energy", "emitted_w", preset_.scene.lights[0].power_w}); // tells which light it is of
     made.files = runs_.files;
@@ -149,10 +140,8 @@ inline std::string only_message(const ui::Workbench& workbench)
 }
 
 /// The workbench on fake jobs and the program's real worker thread, without a window.
-class WorkbenchFixture : public ::testing::Test {
-protected:
+struct Bench {
   FakeRuns runs;
-  TemporaryFolder folder;
   ui::Workbench workbench{runs};
 
   bool until(const std::function<bool()>& done)
@@ -163,18 +152,25 @@ protected:
   {
     return until([&] { return workbench.run().status().state == state; });
   }
-  /// Opens the preset and runs it to its end.
-  void run_through()
-  {
-    ASSERT_TRUE(workbench.open(folder.write("test.json", preset_text)));
-    ASSERT_TRUE(until(job::State::finished));
-  }
   /// As a panel does; gesture and live: as command::Edit has them.
   void edit(const std::function<void(preset::Preset&)>& change, std::uint64_t gesture = 0, bool live = false)
   {
     preset::Preset edited = *workbench.preset();
     change(edited);
     workbench.apply({ui::command::Edit{"edit", edited, gesture, live}});
+  }
+};
+
+class WorkbenchFixture : public testing::Test, protected Bench {
+protected:
+  TemporaryFolder folder;
+
+  void open(const std::string& text = preset_text) { ASSERT_TRUE(workbench.open(folder.write("test.json", text))); }
+  /// Opens the preset and runs it to its end.
+  void run_through()
+  {
+    open();
+    ASSERT_TRUE(until(job::State::finished));
   }
 };
 

@@ -24,7 +24,13 @@ protected:
     frames(4);
     if (question != Question::open) read(); // else the files are behind a tab
   }
-  void ask_for_history() { ask(Question::open_history); }
+  /// In a folder with others.
+  void ask_for_history()
+  {
+    for (const char* file : {"runs/history.csv", "runs/notes.txt", "runs/.hidden.csv", "B.csv", "a.CSV"}) folder.write(file, "");
+    fs::create_directories(folder.path() / "runs" / "deep");
+    ask(Question::open_history);
+  }
   const FileList& files() const { return workspace.dialogs().files(); }
   void read()
   {
@@ -37,15 +43,10 @@ protected:
     for (const FileList::Entry& entry : files().entries()) all.push_back(entry.path.filename().string());
     return all;
   }
-  void click_on(const std::string& widget) { click_in(files(), widget, 2); }
-  void make_folders()
+  void click_on(const std::string& widget)
   {
-    fs::create_directories(folder.path() / "runs" / "deep");
-    folder.write("runs/history.csv", "seconds\n");
-    folder.write("runs/notes.txt", "");
-    folder.write("runs/.hidden.csv", "");
-    folder.write("B.csv", "");
-    folder.write("a.CSV", "");
+    click_in(files(), widget, 2);
+    read();
   }
 };
 
@@ -64,7 +65,6 @@ TEST_F(FileListTest, BeginsInThePresentFolderWhereThePresetHasNone)
 
 TEST_F(FileListTest, FoldersComeFirstAndOnlyWantedKindsAreThere)
 {
-  make_folders();
   ask_for_history();
   EXPECT_EQ(files().folder(), folder.path());
   EXPECT_THAT(names(), ElementsAre("runs", "a.CSV", "B.csv"));
@@ -72,26 +72,20 @@ TEST_F(FileListTest, FoldersComeFirstAndOnlyWantedKindsAreThere)
 
 TEST_F(FileListTest, AClickGoesIntoAFolderAndUpComesBack)
 {
-  make_folders();
   ask_for_history();
   click_on("runs");
-  read();
   EXPECT_EQ(files().folder(), folder.path() / "runs");
   EXPECT_THAT(names(), ElementsAre("deep", "history.csv"));
   click_on("deep");
-  read();
   EXPECT_TRUE(names().empty());
   EXPECT_THAT(files().note(), HasSubstr("Nothing of the kind"));
   click_on("up");
-  read();
   click_on("up");
-  read();
   EXPECT_EQ(files().folder(), folder.path());
 }
 
 TEST_F(FileListTest, AClickPicksAndADoubleClickOpens)
 {
-  make_folders();
   ask_for_history();
   click_on("B.csv");
   EXPECT_EQ(files().picked(), folder.path() / "B.csv");
@@ -103,7 +97,6 @@ TEST_F(FileListTest, AClickPicksAndADoubleClickOpens)
 
 TEST_F(FileListTest, TheKeyboardAloneGoesThroughTheList)
 {
-  make_folders();
   ask_for_history();
   // From the text field to the list; down to the last file.
   for (int i = 0; i < 20 && files().picked().empty(); ++i) {
@@ -121,21 +114,17 @@ TEST_F(FileListTest, TheKeyboardAloneGoesThroughTheList)
 
 TEST_F(FileListTest, AFolderThatVanishesSaysSo)
 {
-  make_folders();
   ask_for_history();
   fs::remove_all(folder.path() / "runs");
   click_on("runs");
-  read();
   EXPECT_TRUE(names().empty());
   EXPECT_THAT(files().note(), HasSubstr("cannot be read"));
   click_on("up");
-  read();
   EXPECT_THAT(names(), ElementsAre("a.CSV", "B.csv")) << "the way out of it";
 }
 
 TEST_F(FileListTest, AFileThatVanishesIsSaid)
 {
-  make_folders();
   ask_for_history();
   fs::remove(folder.path() / "B.csv");
   click_on("B.csv");
@@ -150,7 +139,6 @@ TEST_F(FileListTest, ATypedNameOfNoFileIsSaidAndNothingIsLost)
   ask(Question::open);
   type((folder.path() / "missing.json").string());
   press(ImGuiKey_Enter);
-  frames(3);
   EXPECT_THAT(last_message(workbench), HasSubstr("missing.json"));
   EXPECT_EQ(workbench.preset()->name, "Test");
 }
@@ -161,7 +149,6 @@ TEST_F(FileListTest, ATypedNameIsOpened)
   ask(Question::open);
   type((folder.path() / "other.json").string());
   press(ImGuiKey_Enter);
-  frames(3);
   EXPECT_EQ(workbench.preset()->name, "Other");
   EXPECT_EQ(workbench.question(), Question::none);
 }
@@ -189,11 +176,9 @@ TEST_F(FileListTest, EnterReplacesAFileTheSecondTimeOnly)
   ask(Question::save_preset);
   type(kept.string());
   press(ImGuiKey_Enter);
-  frames(3);
   EXPECT_EQ(workbench.question(), Question::save_preset) << "it asks once more";
   EXPECT_EQ(read_file(kept), R"({"name": "Kept"})");
   press(ImGuiKey_Enter);
-  frames(3);
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_EQ(preset::read_preset(kept.string()).name, "Test");
 }

@@ -9,7 +9,7 @@ namespace nephroid::ui::file_watch_test {
 class FileWatchTest : public test::WorkbenchFixture {
 protected:
   std::string file = folder.write("test.json", test::preset_text);
-  const std::filesystem::path mesh = folder.path() / "a.obj";
+  const fs::path mesh = folder.path() / "a.obj";
   /// The preset's text with another seed.
   static std::string with_seed(int seed) { return "{\"seed\": " + std::to_string(seed) + ", " + std::string(test::preset_text).substr(1); }
   void open()
@@ -53,12 +53,12 @@ TEST_F(FileWatchTest, AChangedPresetIsTakenOverAndCanBeUndone)
 TEST_F(FileWatchTest, WhatIsWrittenBetweenReadingAndTheFirstLookIsSeen)
 {
   const auto preset = std::make_shared<const preset::Preset>(preset::read_preset(file));
-  std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(10));
+  fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::seconds(10));
   FileWatch watch;
   watch.watch(preset, true);
-  std::vector<std::filesystem::path> changed;
+  std::vector<fs::path> changed;
   ASSERT_TRUE(test::eventually([&] { changed = watch.take_changed(); }, [&] { return !changed.empty(); }));
-  EXPECT_EQ(changed, std::vector<std::filesystem::path>{file});
+  EXPECT_EQ(changed, std::vector<fs::path>{file});
 }
 
 TEST_F(FileWatchTest, EditsThatAreNotSavedAreKept)
@@ -67,7 +67,7 @@ TEST_F(FileWatchTest, EditsThatAreNotSavedAreKept)
   edit([](preset::Preset& preset) { preset.seed = 5; });
   write_file_whole(file, with_seed(77));
   ASSERT_TRUE(until([&] { return !workbench.messages().empty(); }));
-  EXPECT_THAT(workbench.messages()[0].line, ::testing::HasSubstr("another program changed this file"));
+  EXPECT_THAT(workbench.messages()[0].line, HasSubstr("another program changed this file"));
   EXPECT_EQ(workbench.preset()->seed, 5u);
   workbench.apply({command::ReloadPreset{}});
   EXPECT_EQ(workbench.preset()->seed, 77u);
@@ -102,7 +102,7 @@ TEST_F(FileWatchTest, ABrokenPresetIsSaidAndNothingIsLost)
   open();
   write_file_whole(file, "{\"scene\": ");
   ASSERT_TRUE(until([&] { return !workbench.messages().empty(); }));
-  EXPECT_THAT(workbench.messages()[0].line, ::testing::StartsWith(file));
+  EXPECT_THAT(workbench.messages()[0].line, StartsWith(file));
   EXPECT_EQ(workbench.preset()->seed, 1u);
 }
 
@@ -113,7 +113,7 @@ TEST_F(FileWatchTest, AFileThatThePresetNamesStartsTheRunAgain)
   write_file_whole(mesh, "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
   EXPECT_TRUE(until([&] { return runs.made > made; }));
   EXPECT_GT(runs.reread, reread);
-  std::filesystem::remove(mesh);
+  fs::remove(mesh);
   const int before = runs.made;
   rest();
   EXPECT_EQ(runs.made, before) << "a file that is gone may be on its way back";

@@ -172,10 +172,10 @@ Shown shown(std::mt19937& random, bool fit)
 {
   std::uniform_real_distribution<double> any(-3, 3), fov(5, 150);
   Shown s;
-  s.camera.position = {any(random), any(random), any(random)};
-  s.camera.target = {any(random), any(random), any(random)};
-  s.camera.fov_deg = fov(random);
-  s.camera.resolution = {320, 200};
+  s.camera = {.position = {any(random), any(random), any(random)},
+              .target = {any(random), any(random), any(random)},
+              .fov_deg = fov(random),
+              .resolution = {320, 200}};
   s.look.fit = fit;
   s.look.zoom = 1.7;
   s.look.centre = {100, 30};
@@ -211,8 +211,7 @@ TEST(Sight, IsNotThereForACameraThatSeesNothing)
   preset::Camera camera;
   camera.target = camera.position;
   EXPECT_FALSE(make_sight(camera, {}, {1, 1}));
-  camera.target = {0, 5, 4};
-  camera.position = {0, 1, 4};
+  camera = {.position = {0, 1, 4}, .target = {0, 5, 4}};
   EXPECT_FALSE(make_sight(camera, {}, {1, 1})) << "along its up";
 }
 

@@ -2,8 +2,6 @@
 // The panel Inspector: pixels and rectangles taken by the mouse and by keys, what it says of them, and what it copies. Statistics of
 // rectangles against closed forms.
 #include "layered_runs.h"
-#include "tests/support/eventually.h"
-#include "tests/support/test.h"
 #include "ui/inspector/panel.h"
 #include "ui/inspector/pixel.h"
 #include "ui/inspector/region.h"
@@ -27,17 +25,19 @@ protected:
     imgui.key(ImGuiMod_Alt, false);
     frames(2);
   }
-  void click_on(const std::string& widget)
-  {
-    click(inspector().place_of(widget).value());
-    frames(2);
-  }
+  void click_on(const std::string& widget) { click_in(inspector(), widget, 2); }
   PixelRow row(const std::string& name)
   {
     for (const PixelRow& row : pixel_rows(context(), pixel().value()))
       if (row.name == name) return row;
     ADD_FAILURE() << "no row " << name;
     return {};
+  }
+  /// With a switch of the engine on.
+  void run_through_with(const std::string& name)
+  {
+    std::string text = test::preset_text;
+    run_through(text.insert(text.find("\"stop\""), "\"spectral\": {\"" + name + "\": true}, "));
   }
   bool has_statistics()
   {
@@ -79,11 +79,7 @@ TEST_F(InspectorTest, AKeyTakesThePixelInTheMiddleAndLetsItGo)
   EXPECT_THAT(pixel(), Optional(Pixel{32, 24}));
   press(ImGuiKey_I);
   EXPECT_FALSE(pixel());
-  Look near;
-  near.fit = false;
-  near.zoom = 8;
-  near.centre = {10.5, 1e9};
-  workbench.apply({command::SetLook{near}});
+  workbench.apply({command::SetLook{{.fit = false, .zoom = 8, .centre = {10.5, 1e9}}}});
   press(ImGuiKey_I);
   EXPECT_THAT(pixel(), Optional(Pixel{10, 47}));
 }
@@ -116,8 +112,7 @@ TEST_F(InspectorTest, SaysValuesLayersAndTheReference)
 TEST_F(InspectorTest, APixelOutsideOfThePictureIsSaidAndComesBack)
 {
   run_through();
-  workbench.apply({command::InspectPixel{Pixel{500, -3}}});
-  frames(2);
+  apply({command::InspectPixel{Pixel{500, -3}}});
   EXPECT_TRUE(pixel_rows(context(), *pixel()).empty());
   press(ImGuiKey_LeftArrow);
   EXPECT_THAT(pixel(), Optional(Pixel{63, 0}));
@@ -126,8 +121,7 @@ TEST_F(InspectorTest, APixelOutsideOfThePictureIsSaidAndComesBack)
 
 TEST_F(InspectorTest, TheSpectrumOfThePixelIsShownAndCopied)
 {
-  run_through(
-      std::string(test::preset_text).replace(std::string(test::preset_text).find("\"stop\""), 0, "\"spectral\": {\"relight\": true}, "));
+  run_through_with("relight");
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
   ASSERT_TRUE(until([&] { return workbench.run().spectrum() != nullptr; }));
   EXPECT_EQ(workbench.run().spectrum()->pixel, (Pixel{3, 4}));
@@ -138,7 +132,6 @@ TEST_F(InspectorTest, TheSpectrumOfThePixelIsShownAndCopied)
   press(ImGuiKey_RightArrow);
   EXPECT_TRUE(until([&] { return workbench.run().spectrum()->pixel == Pixel{4, 4}; })) << "of a finished run too";
   press(ImGuiKey_I);
-  frames(2);
   EXPECT_EQ(workbench.run().spectrum(), nullptr);
 }
 
@@ -157,8 +150,7 @@ TEST_F(InspectorTest, AButtonKeepsSpectraAsOneEdit)
 
 TEST_F(InspectorTest, SpectraThatContradictAnotherFieldAreNotOffered)
 {
-  run_through(
-      std::string(test::preset_text).replace(std::string(test::preset_text).find("\"stop\""), 0, "\"spectral\": {\"indirect\": true}, "));
+  run_through_with("indirect");
   workbench.apply({command::InspectPixel{Pixel{3, 4}}});
   ASSERT_TRUE(until([&] { return workbench.run().spectrum() && inspector().place_of("keep spectra"); }));
   click_on("keep spectra");
@@ -209,8 +201,7 @@ TEST_F(InspectorTest, RegionsOutsideOfThePictureDoNoHarm)
 {
   run_through();
   for (const PixelRegion& region : {PixelRegion{{900, 900}, {1000, 1000}}, PixelRegion{{-50, -50}, {5, 5}}, PixelRegion{{5, 5}, {5, 9}}}) {
-    workbench.apply({command::SelectRegion{region}});
-    frames(3);
+    apply({command::SelectRegion{region}});
   }
   EXPECT_FALSE(workbench.chosen().region) << "the last one is empty";
   EXPECT_TRUE(workbench.messages().empty());
@@ -302,7 +293,7 @@ TEST(RegionHistogram, CountsEveryPixelAboveZeroOnce)
   EXPECT_NEAR(h.first, -2, 0.11);
   EXPECT_NEAR(h.last, 2, 0.11);
   // 2.5 pixels a tenth of a decade.
-  EXPECT_THAT(std::vector(h.counts[0].begin() + 1, h.counts[0].end() - 1), Each(testing::AllOf(testing::Ge(2), testing::Le(3))));
+  EXPECT_THAT(std::vector(h.counts[0].begin() + 1, h.counts[0].end() - 1), Each(AllOf(Ge(2), Le(3))));
   const Histogram none = region_statistics({picture_of(1, 1, {0}), {}, "", {{0, 0}, {1, 1}}, 1}).histogram;
   EXPECT_THAT(none.counts[0], Each(0));
 }

@@ -19,8 +19,7 @@ protected:
   void open_palette()
   {
     open();
-    workbench.apply({command::Ask{Question::command}});
-    frames(3);
+    apply({command::Ask{Question::command}});
   }
   /// Another engine's preset, and back.
   void leave_and_come_back()
@@ -183,7 +182,6 @@ TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
   ASSERT_FALSE(workspace.palette().matches().empty());
   EXPECT_EQ(workspace.palette().matches().front()->name, "Brighter");
   press(ImGuiKey_Enter);
-  frames(2);
   EXPECT_EQ(workbench.chosen().look.exposure_stops, 0.5);
   EXPECT_EQ(workbench.question(), Question::none);
 }
@@ -199,7 +197,6 @@ TEST_F(LayoutTest, TheArrowsChooseInThePalette)
   press(ImGuiKey_UpArrow);
   press(ImGuiKey_DownArrow);
   press(ImGuiKey_Enter);
-  frames(2);
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_EQ(workbench.settings().text_size, second == "Larger text" ? 1.1 : 1 / 1.1) << second;
 }
@@ -209,7 +206,6 @@ TEST_F(LayoutTest, ThePaletteSaysWhyNot)
   open_palette();
   type("compare with the next");
   press(ImGuiKey_Enter);
-  frames(1);
   EXPECT_EQ(only_message(workbench), "Compare with the next: no run is pinned");
 }
 
@@ -218,7 +214,6 @@ TEST_F(LayoutTest, EscapeClosesThePaletteAndNotTheRun)
   runs.steps = 100000;
   open_palette();
   press(ImGuiKey_Escape);
-  frames(2);
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_EQ(workbench.run().status().state, job::State::running);
 }

@@ -22,7 +22,7 @@ protected:
   void click_on(const std::string& widget) { click_in(view(), widget, 2); }
   image::Image saved(const std::string& name)
   {
-    const std::filesystem::path file = folder.path() / name;
+    const fs::path file = folder.path() / name;
     workbench.apply({command::SavePicture{file}});
     EXPECT_TRUE(until_files_are_done());
     return image::read_image(file);
@@ -43,21 +43,15 @@ protected:
 TEST_F(LooksTest, AKeyGoesThroughTheLayers)
 {
   EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
-  press(ImGuiKey_L);
-  frames(2);
-  EXPECT_EQ(layer(), "direct");
-  EXPECT_EQ(view().shown().label, "direct");
-  EXPECT_EQ(texel(32, 12), bytes(0.25f, 0.5f, 0.125f));
-  press(ImGuiKey_L);
-  frames(2);
-  EXPECT_EQ(layer(), "caustic");
-  EXPECT_EQ(texel(32, 12), bytes(0.5f, 0.25f, 0));
-  press(ImGuiKey_L);
-  frames(2);
-  EXPECT_EQ(layer(), "");
-  EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
+  const std::pair<const char*, std::array<int, 3>> layers[] = {
+      {"direct", bytes(0.25f, 0.5f, 0.125f)}, {"caustic", bytes(0.5f, 0.25f, 0)}, {"", bytes(0.75f, 0.75f, 0.125f)}};
+  for (const auto& [name, colour] : layers) {
+    press(ImGuiKey_L);
+    EXPECT_EQ(layer(), name);
+    EXPECT_EQ(view().shown().label, name);
+    EXPECT_EQ(texel(32, 12), colour);
+  }
   press(ImGuiKey_L, ImGuiMod_Shift);
-  frames(2);
   EXPECT_EQ(layer(), "caustic") << "back";
   EXPECT_EQ(runs.made, 1) << "no new run";
   EXPECT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
@@ -85,13 +79,11 @@ TEST_F(LooksTest, TheBoxesChooseLayerAndTone)
 
 TEST_F(LooksTest, ARangeIsTyped)
 {
-  workbench.apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.01, 1}}}});
-  frames(3);
+  apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.01, 1}}}});
   const auto type = [&](const std::string& field, const char* text) {
     click_on(field);
     retype(text);
     press(ImGuiKey_Enter);
-    frames(2);
   };
   type("high", "50");
   EXPECT_EQ(*look().false_colour, (LuminanceRange{0.01, 50}));
@@ -119,28 +111,23 @@ TEST_F(LooksTest, RangesThatAreNoneAreNotTaken)
 TEST_F(LooksTest, AKeyGoesThroughTheToneCurves)
 {
   press(ImGuiKey_T);
-  frames(2);
   EXPECT_EQ(look().tone, ToneCurve::filmic);
   EXPECT_EQ(texel(32, 12), bytes(static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.125))));
   press(ImGuiKey_T);
-  frames(2);
   EXPECT_EQ(look().tone, ToneCurve::false_colour);
   // (32, 12) is (.75, .75, .125): Y = .2126 .75 + .7152 .75 + .0722 .125 = .7049
   const Rgb8 wanted = luminance_colour(0.704875, view().tone().range);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(texel(32, 12)[c], wanted[c], 2);
   press(ImGuiKey_T);
-  frames(2);
   EXPECT_EQ(look().tone, ToneCurve::standard);
   EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
 }
 
 TEST_F(LooksTest, FalseColourIsInWattsWhateverTheExposure)
 {
-  workbench.apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.1, 10}}}});
-  frames(2);
+  apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.1, 10}}}});
   const std::array<int, 3> before = texel(32, 12);
   press(ImGuiKey_E);
-  frames(2);
   EXPECT_EQ(look().exposure_stops, 0.5);
   EXPECT_EQ(texel(32, 12), before);
   edit([&](preset::Preset& p) { p.white = 2; }); // the same numbers are twice the light
@@ -163,31 +150,21 @@ TEST_F(LooksTest, KeysOfOneFrameDoNotUndoEachOther)
 TEST_F(LooksTest, PicturesAreSavedAsShown)
 {
   expect_saved_as_shown("standard.png");
-  press(ImGuiKey_E);
-  frame();
-  expect_saved_as_shown("brighter.png");
-  press(ImGuiKey_L);
-  frame();
-  expect_saved_as_shown("direct.png");
-  press(ImGuiKey_T);
-  frame();
-  expect_saved_as_shown("filmic.png");
-  EXPECT_THAT(last_message(workbench), HasSubstr("filmic"));
-  press(ImGuiKey_T);
-  frame();
-  expect_saved_as_shown("false.png");
-  EXPECT_THAT(last_message(workbench), HasSubstr("W/m2/sr"));
+  for (const auto& [key, said] : {std::pair(ImGuiKey_E, ""), {ImGuiKey_L, ""}, {ImGuiKey_T, "filmic"}, {ImGuiKey_T, "W/m2/sr"}}) {
+    press(key);
+    expect_saved_as_shown("picture.png");
+    EXPECT_THAT(last_message(workbench), HasSubstr(said));
+  }
   EXPECT_THAT(saved("linear.exr").channels, SizeIs(9)) << "the whole picture with both layers, whatever is shown";
 }
 
 TEST_F(LooksTest, ALayerThatThePictureDoesNotHaveIsSaid)
 {
-  workbench.apply({command::ShowLayer{"indirect"}});
-  frames(2);
+  apply({command::ShowLayer{"indirect"}});
   EXPECT_THAT(view().shown().hint, HasSubstr("has no layer \"indirect\", only direct, caustic"));
   workbench.apply({command::SavePicture{folder.path() / "none.png"}});
   ASSERT_TRUE(until_files_are_done());
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.png"));
+  EXPECT_FALSE(fs::exists(folder.path() / "none.png"));
   EXPECT_THAT(last_message(workbench), HasSubstr("nothing to save"));
   press(ImGuiKey_L);
   EXPECT_EQ(layer(), "direct");
@@ -197,8 +174,7 @@ TEST_F(LooksTest, PinnedRunsHaveTheirLayers)
 {
   press(ImGuiKey_P);
   press(ImGuiKey_N);
-  workbench.apply({command::ShowLayer{"caustic"}, command::Flip{}});
-  frames(2);
+  apply({command::ShowLayer{"caustic"}, command::Flip{}});
   EXPECT_EQ(texel(32, 12), bytes(0.5f, 0.25f, 0));
   EXPECT_EQ(view().shown().label, "\"Test\": caustic");
 }
@@ -214,14 +190,11 @@ protected:
 
 TEST_F(LooksWithReference, TheReferenceShowsTheSameLayer)
 {
-  workbench.apply({command::ShowLayer{"caustic"}, command::Flip{}});
-  frames(2);
+  apply({command::ShowLayer{"caustic"}, command::Flip{}});
   EXPECT_EQ(texel(32, 12), bytes(0.5f, 0, 0));
-  workbench.apply({command::ShowLayer{"direct"}});
-  frames(2);
+  apply({command::ShowLayer{"direct"}});
   EXPECT_THAT(view().shown().hint, HasSubstr("the reference has no layer \"direct\", only caustic"));
-  workbench.apply({command::ShowLayer{}});
-  frames(2);
+  apply({command::ShowLayer{}});
   EXPECT_EQ(texel(32, 12), bytes(1, 1, 1));
 }
 
@@ -240,14 +213,11 @@ TEST_F(LooksWithReference, TheDifferenceIsThatOfTheLayer)
 
 TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
 {
-  preset::Preset edited = *workbench.preset();
-  edited.scene.camera.position = {1.5, -0.25, 3};
-  edited.scene.camera.fov_deg = 31;
+  edit([](preset::Preset& p) { p.scene.camera.position = {1.5, -0.25, 3}, p.scene.camera.fov_deg = 31; });
   const auto copied = [&](const char* name) {
     action(name).run(context());
     return std::string(ImGui::GetClipboardText());
   };
-  workbench.apply({command::Edit{"camera", edited}});
   EXPECT_THAT(copied("Copy camera as JSON"), HasSubstr("\"fov_deg\": 31"));
   // Every --set of the text, without its quotes, makes the camera of a preset that had another.
   preset::Overrides overrides;
@@ -257,7 +227,7 @@ TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
     overrides.push_back(text.substr(at + 1, end - at - 1));
     at = text.find('\'', end + 1);
   }
-  EXPECT_EQ(preset::parse_preset(test::preset_text, "again", overrides).scene.camera, edited.scene.camera);
+  EXPECT_EQ(preset::parse_preset(test::preset_text, "again", overrides).scene.camera, camera());
 }
 
 TEST(LooksOfASession, AreKept)

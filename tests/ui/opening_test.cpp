@@ -3,7 +3,6 @@
 // pictures and meshes that are dropped on it, and that nothing does of what is none.
 #include "fake_job.h"
 #include "inverse/settings.h"
-#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "window_fixture.h"
 
@@ -22,13 +21,7 @@ protected:
   }
   std::string refusal(const std::string& file)
   {
-    try {
-      refuse_other_kinds(file);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::bad_input);
-      return error.line();
-    }
-    return {};
+    return refusal_of([&] { refuse_other_kinds(file); });
   }
 };
 
@@ -78,7 +71,6 @@ TEST_F(OpeningTest, OnceTheChangesAreSavedWhatWaitedGoesOn)
   EXPECT_TRUE(workbench.edits()->modified());
   ASSERT_FALSE(workbench.messages().empty());
   EXPECT_TRUE(workbench.messages().back().error);
-  EXPECT_EQ(workbench.preset()->name, "Test");
   workbench.apply({command::Ask{Question::save_preset}}); // "Save as..." in the dialog
   workbench.apply({command::SavePreset{folder.path() / "third.json"}});
   EXPECT_EQ(workbench.preset()->name, "Second");
@@ -115,25 +107,16 @@ TEST_F(OpeningTest, AMapBecomesTheEnvironment)
 {
   const std::string map = folder.write("hall.hdr", "read by the run"), other = folder.write("sky.EXR", "");
   workbench.apply({command::Open{map}});
-  ASSERT_EQ(workbench.messages().size(), 1u) << "no preset is open";
-  EXPECT_THAT(workbench.messages()[0].line, ::testing::HasSubstr("once a preset is open"));
+  EXPECT_THAT(only_message(workbench), HasSubstr("once a preset is open"));
   open_and_edit();
   workbench.apply({command::Open{map}});
   ASSERT_TRUE(workbench.preset()->scene.environment);
   EXPECT_EQ(workbench.preset()->scene.environment->file, map);
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_EQ(workbench.edits()->undo_label(), "surround with hall.hdr");
-  edit([](preset::Preset& p) {
-    p.scene.environment->radiance = 3;
-    p.scene.environment->rotate_deg = 40;
-    p.scene.environment->lights = true;
-  });
+  edit([&](preset::Preset& p) { p.scene.environment = {.file = map, .radiance = 3, .rotate_deg = 40, .lights = true}; });
   workbench.apply({command::Open{other}});
-  preset::Environment expected;
-  expected.file = other;
-  expected.radiance = 3;
-  expected.rotate_deg = 40;
-  expected.lights = true;
+  const preset::Environment expected{.file = other, .radiance = 3, .rotate_deg = 40, .lights = true};
   EXPECT_EQ(workbench.preset()->scene.environment, expected);
   for (int i = 0; i < 3; ++i) workbench.apply({command::Undo{}});
   EXPECT_FALSE(workbench.preset()->scene.environment);
@@ -145,7 +128,7 @@ TEST_F(OpeningTest, AMapThatThePresetCannotHaveIsRefused)
   ASSERT_TRUE(workbench.open(folder.write("inverse.json", R"({"engine": "inverse", "inverse": {"receivers": [
     {"distance_mm": 100, "picture": {"type": "disc", "radius": 0.3}}]}})")));
   workbench.apply({command::Open{folder.write("hall.hdr", "")}});
-  EXPECT_THAT(only_message(workbench), ::testing::HasSubstr("environment"));
+  EXPECT_THAT(only_message(workbench), HasSubstr("environment"));
   EXPECT_TRUE(workbench.messages()[0].error);
   EXPECT_FALSE(workbench.edits()->modified());
 }
@@ -175,13 +158,13 @@ TEST_F(OpeningTest, SaysWhatOtherFilesAreAndWhatCanBeDoneWithThem)
 
 TEST_F(OpeningTest, LeavesPresetsToTheReader)
 {
-  EXPECT_EQ(refusal(first), "");
-  EXPECT_EQ(refusal("first-light"), "");
-  EXPECT_EQ(refusal(folder.path().string()), "");
-  EXPECT_EQ(refusal((folder.path() / "missing.obj").string()), "");
-  EXPECT_EQ(refusal(folder.write("broken.json", "]")), "") << "the reader names line and column";
-  EXPECT_EQ(refusal(folder.write("preset.txt", " \n{}")), "");
-  EXPECT_EQ(refusal(folder.write("empty", "")), "");
+  EXPECT_NO_THROW(refuse_other_kinds(first));
+  EXPECT_NO_THROW(refuse_other_kinds("first-light"));
+  EXPECT_NO_THROW(refuse_other_kinds(folder.path().string()));
+  EXPECT_NO_THROW(refuse_other_kinds((folder.path() / "missing.obj").string()));
+  EXPECT_NO_THROW(refuse_other_kinds(folder.write("broken.json", "]"))) << "the reader names line and column";
+  EXPECT_NO_THROW(refuse_other_kinds(folder.write("preset.txt", " \n{}")));
+  EXPECT_NO_THROW(refuse_other_kinds(folder.write("empty", "")));
 }
 
 class DroppedPicture : public test::WorkbenchFixture {
@@ -212,16 +195,16 @@ TEST_F(DroppedPicture, ThatIsNotThereChangesNothing)
 {
   ASSERT_TRUE(workbench.open("inverse/shapes"));
   workbench.apply({command::Open{(folder.path() / "gone.png").string()}});
-  EXPECT_THAT(last_message(workbench), ::testing::HasSubstr("there is no such picture"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("there is no such picture"));
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
 TEST_F(DroppedPicture, SaysWhatToDoWithItElsewhere)
 {
-  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  open();
   workbench.apply({command::Open{picture}});
-  EXPECT_THAT(last_message(workbench), ::testing::HasSubstr("is a picture"));
-  EXPECT_THAT(last_message(workbench), ::testing::HasSubstr("engine inverse"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("is a picture"));
+  EXPECT_THAT(last_message(workbench), HasSubstr("engine inverse"));
   EXPECT_FALSE(workbench.edits()->modified());
 }
 
@@ -230,8 +213,7 @@ constexpr const char* tetrahedron = "v 100 0 0\nv 110 0 0\nv 100 10 0\nv 100 0 1
 
 class DroppedMeshTest : public test::WorkbenchFixture {
 protected:
-  void SetUp() override { ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text))); }
-  std::string write(const std::string& name, const std::string& text) { return folder.write(name, text); }
+  void SetUp() override { open(); }
   void drop(const std::string& file)
   {
     workbench.apply({command::Open{file}});
@@ -249,7 +231,7 @@ protected:
 
 TEST_F(DroppedMeshTest, IsAnObjectWhereTheCameraLooks)
 {
-  drop(write("thing.obj", tetrahedron));
+  drop(folder.write("thing.obj", tetrahedron));
   EXPECT_EQ(only_error(), "");
   const preset::Preset& preset = *workbench.preset();
   ASSERT_EQ(preset.scene.objects.size(), 2U);
@@ -272,11 +254,11 @@ TEST_F(DroppedMeshTest, IsAnObjectWhereTheCameraLooks)
 
 TEST_F(DroppedMeshTest, IsOfTheFirstGlassAndOfAnotherName)
 {
-  preset::Preset edited = *workbench.preset();
-  edited.scene.materials["zircon"].type = preset::Material::Type::dielectric;
-  edited.scene.objects[0].name = "thing";
-  workbench.apply({command::Edit{"edit", edited}});
-  drop(write("thing.obj", tetrahedron));
+  edit([](preset::Preset& p) {
+    p.scene.materials["zircon"].type = preset::Material::Type::dielectric;
+    p.scene.objects[0].name = "thing";
+  });
+  drop(folder.write("thing.obj", tetrahedron));
   ASSERT_EQ(workbench.preset()->scene.objects.size(), 2U);
   EXPECT_EQ(workbench.preset()->scene.objects[1].material, "zircon");
   EXPECT_EQ(workbench.preset()->scene.objects[1].name, "thing 2");
@@ -284,18 +266,15 @@ TEST_F(DroppedMeshTest, IsOfTheFirstGlassAndOfAnotherName)
 
 TEST_F(DroppedMeshTest, GetsGlassWhereThereIsNoMaterial)
 {
-  preset::Preset edited = *workbench.preset();
-  edited.scene.objects.clear();
-  edited.scene.materials.clear();
-  workbench.apply({command::Edit{"edit", edited}});
-  drop(write("thing.obj", tetrahedron));
+  edit([](preset::Preset& p) { p.scene.objects.clear(), p.scene.materials.clear(); });
+  drop(folder.write("thing.obj", tetrahedron));
   ASSERT_EQ(workbench.preset()->scene.objects.size(), 1U);
   EXPECT_EQ(workbench.preset()->scene.materials.at("glass").type, preset::Material::Type::dielectric);
 }
 
 TEST_F(DroppedMeshTest, CanBeSavedAndOpened)
 {
-  drop(write("thing.obj", tetrahedron));
+  drop(folder.write("thing.obj", tetrahedron));
   const std::string file = (folder.path() / "saved.json").string();
   workbench.apply({command::SavePreset{file}});
   EXPECT_EQ(preset::read_preset(file).scene, workbench.preset()->scene);
@@ -309,7 +288,7 @@ TEST_F(DroppedMeshTest, BrokenOnesChangeNothing)
                                 {"words.stl", "this is no mesh"},
                                 {"nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"}};
   for (const auto& [name, text] : bad) {
-    drop(write(name, text));
+    drop(folder.write(name, text));
     EXPECT_THAT(only_error(), HasSubstr(name));
     EXPECT_EQ(only_error().find(" | "), std::string::npos) << "one message: " << only_error();
     EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
@@ -322,16 +301,13 @@ TEST_F(DroppedMeshTest, BrokenOnesChangeNothing)
 
 TEST_F(DroppedMeshTest, OpenOnesAreRefusedWhereThePresetSaysSo)
 {
-  const std::string file = write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  preset::Preset edited = *workbench.preset();
-  edited.scene.materials["glass"].type = preset::Material::Type::dielectric;
-  workbench.apply({command::Edit{"edit", edited}});
+  const std::string file = folder.write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  edit([](preset::Preset& p) { p.scene.materials["glass"].type = preset::Material::Type::dielectric; });
   drop(file);
   ASSERT_EQ(workbench.preset()->scene.objects.size(), 2U);
   EXPECT_THAT(last_message(workbench), HasSubstr("it is not closed"));
   workbench.apply({command::Undo{}});
-  edited.scene.damaged_meshes = preset::Scene::DamagedMeshes::refuse;
-  workbench.apply({command::Edit{"refuse", edited}});
+  edit([](preset::Preset& p) { p.scene.damaged_meshes = preset::Scene::DamagedMeshes::refuse; });
   drop(file);
   EXPECT_THAT(only_error(), HasSubstr("not closed"));
   EXPECT_EQ(workbench.preset()->scene.objects.size(), 1U);
@@ -340,14 +316,14 @@ TEST_F(DroppedMeshTest, OpenOnesAreRefusedWhereThePresetSaysSo)
 TEST_F(DroppedMeshTest, OnAnInversePresetIsRefused)
 {
   ASSERT_TRUE(workbench.open("inverse/point"));
-  workbench.apply({command::Open{write("thing.obj", tetrahedron)}});
+  workbench.apply({command::Open{folder.write("thing.obj", tetrahedron)}});
   EXPECT_THAT(only_error(), HasSubstr("is a mesh"));
   EXPECT_FALSE(workbench.works_on_files());
 }
 
 TEST_F(DroppedMeshTest, ForAPresetThatIsGoneIsForgotten)
 {
-  const std::string file = write("thing.obj", tetrahedron);
+  const std::string file = folder.write("thing.obj", tetrahedron);
   workbench.apply({command::Open{file}});
   ASSERT_TRUE(workbench.open("spectral/prism"));
   ASSERT_TRUE(until([&] { return !workbench.works_on_files(); }));

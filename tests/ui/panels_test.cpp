@@ -108,11 +108,9 @@ TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
   const unsigned char before = view().texture().pixels()[1];
   press(ImGuiKey_E, ImGuiMod_Shift);
   press(ImGuiKey_E, ImGuiMod_Shift);
-  frame();
   EXPECT_EQ(workbench.chosen().look.exposure_stops, -1);
   EXPECT_LT(view().texture().pixels()[1], before);
   press(ImGuiKey_0);
-  frame();
   EXPECT_EQ(view().texture().pixels()[1], before);
   EXPECT_EQ(runs.made, 1);
 }
@@ -147,8 +145,7 @@ TEST_F(PanelsTest, ANoteMovesNothing)
   open();
   frames(2);
   const double height = view().canvas().size[1];
-  workbench.apply({command::Report{"something is saved", false}});
-  frames(2);
+  apply({command::Report{"something is saved", false}});
   ASSERT_EQ(workbench.messages().size(), 1u);
   EXPECT_EQ(view().canvas().size[1], height);
 }
@@ -158,13 +155,11 @@ TEST_F(PanelsTest, AnErrorTakesAStripThatGoesWhenItIsDismissed)
   open();
   frames(2);
   const double height = view().canvas().size[1];
-  workbench.apply({command::Open{(folder.path() / "missing.json").string()}});
-  frames(2);
+  apply({command::Open{(folder.path() / "missing.json").string()}});
   ASSERT_EQ(workbench.messages().size(), 1u);
   EXPECT_LT(view().canvas().size[1], height - 20);
   EXPECT_NE(workbench.preset(), nullptr);
-  workbench.apply({command::Dismiss{workbench.messages()[0].id}});
-  frames(2);
+  apply({command::Dismiss{workbench.messages()[0].id}});
   EXPECT_EQ(view().canvas().size[1], height);
 }
 
@@ -227,13 +222,11 @@ TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
   open();
   press(ImGuiKey_S, ImGuiMod_Ctrl);
   EXPECT_EQ(workbench.question(), Question::none) << "the preset has a file of its own";
-  EXPECT_THAT(only_message(workbench), ::testing::StartsWith("saved "));
-  workbench.apply({command::Ask{Question::save_picture}});
-  frames(2);
+  EXPECT_THAT(only_message(workbench), StartsWith("saved "));
+  apply({command::Ask{Question::save_picture}});
   press(ImGuiKey_E);
   EXPECT_EQ(workbench.chosen().look.exposure_stops, 0);
   press(ImGuiKey_Escape);
-  frames(2);
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_NE(workbench.run().status().state, job::State::cancelled);
 }
@@ -263,8 +256,7 @@ TEST_F(PanelsTest, APictureBeyondTheRenderersTexturesIsSaidNotDrawn)
   };
   EXPECT_EQ(drawn_pictures(), 1);
   ImGui::GetPlatformIO().Renderer_TextureMaxWidth = ImGui::GetPlatformIO().Renderer_TextureMaxHeight = 50;
-  workbench.apply({command::SetLook{{.exposure_stops = -3}}});
-  frames(2);
+  apply({command::SetLook{{.exposure_stops = -3}}});
   EXPECT_EQ(drawn_pictures(), 0);
   EXPECT_TRUE(std::equal(before.begin(), before.end(), texture.pixels().begin())) << "64 x 48 is not uploaded";
   EXPECT_TRUE(workbench.messages().empty());

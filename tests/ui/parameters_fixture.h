@@ -6,8 +6,6 @@
 #include "ui/parameters/panel.h"
 #include "window_fixture.h"
 
-#include <string>
-
 namespace nephroid::test {
 
 using Json = preset::Json;
@@ -33,7 +31,6 @@ protected:
     click("search");
     retype(words);
     press(ImGuiKey_Enter);
-    frames(2);
   }
   /// Finds a field and types into it, without Enter.
   void begin_typing(const std::string& pointer, const std::string& typed)
@@ -47,18 +44,13 @@ protected:
   {
     begin_typing(pointer, typed);
     press(ImGuiKey_Enter);
-    frames(2);
   }
   void choose(const std::string& pointer, const std::string& word)
   {
     click(pointer);
     click(pointer + ":" + word);
   }
-  void undo()
-  {
-    press(ImGuiKey_Z, ImGuiMod_Ctrl);
-    frame();
-  }
+  void undo() { press(ImGuiKey_Z, ImGuiMod_Ctrl); }
 };
 
 } // namespace nephroid::test

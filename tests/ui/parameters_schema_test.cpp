@@ -266,7 +266,7 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
   visit(schema["properties"]["animation"], "/animation", "Preset", "Preset.animation");
   std::vector<std::string> left;
   std::ranges::set_symmetric_difference(edited, leaves(), std::back_inserter(left));
-  EXPECT_THAT(left, testing::IsEmpty());
+  EXPECT_THAT(left, IsEmpty());
   for (const Message& message : workbench.messages()) ADD_FAILURE() << message.line;
   RecordProperty("fields", static_cast<int>(edited.size()));
 }

@@ -83,7 +83,6 @@ TEST_F(ParametersTest, WhileItIsTypedItIsSaidAlready)
   EXPECT_FALSE(panel().place_of(fov + ":problem"));
   EXPECT_EQ(text(), before) << "no run for every letter";
   press(ImGuiKey_Escape);
-  frames(2);
   EXPECT_EQ(text(), before);
   begin_typing(fov, "61");
   click(*panel().place_of("search"));
@@ -250,7 +249,6 @@ TEST_F(ParametersTest, AMaterialIsRenamedWithItsUses)
     click(materials + "/" + name + ":name");
     retype(to);
     press(ImGuiKey_Enter);
-    frames(2);
   };
   rename("wall", "new");
   EXPECT_TRUE(at(materials).contains("wall")) << "there is another";

@@ -16,12 +16,11 @@ protected:
     runs.plan.buffers = {{"tree", 1 << 20}, {"film", 3 << 20}};
     runs.plan.defines = {{"NEPHROID_MIRRORS", "0"}};
   }
+  auto place_of(const std::string& pass) const { return workspace.panel<PlanPanel>().place_of(pass); }
   /// Clicks the box of a pass; the edit that this pushed.
   std::optional<command::Edit> click(const std::string& pass)
   {
-    const auto at = workspace.panel<ui::PlanPanel>().place_of(pass);
-    if (!at) return std::nullopt;
-    press_at(*at);
+    press_at(place_of(pass).value());
     let_go();
     const auto* edit = imgui.pushed<command::Edit>();
     return edit ? std::optional(*edit) : std::nullopt;
@@ -32,10 +31,10 @@ TEST_F(PlanPanelTest, WhatAFieldDecidesHasABox)
 {
   frames(3);
   open();
-  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().place_of("direct"));
-  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().place_of("mirrors"));
-  EXPECT_FALSE(workspace.panel<ui::PlanPanel>().place_of("indirect"));
-  EXPECT_FALSE(workspace.panel<ui::PlanPanel>().place_of("fog")) << "the preset has no such field";
+  EXPECT_TRUE(place_of("direct"));
+  EXPECT_TRUE(place_of("mirrors"));
+  EXPECT_FALSE(place_of("indirect"));
+  EXPECT_FALSE(place_of("fog")) << "the preset has no such field";
   EXPECT_TRUE(workbench.messages().empty());
 }
 
@@ -89,7 +88,7 @@ TEST_F(PlanPanelTest, AnotherPresetsPlanIsNotShownForThisOne)
   EXPECT_EQ(workbench.run().plan(), nullptr);
   ASSERT_TRUE(until([&] { return workbench.run().plan() != nullptr; }));
   frames(2);
-  EXPECT_TRUE(workspace.panel<ui::PlanPanel>().place_of("mirrors"));
+  EXPECT_TRUE(place_of("mirrors"));
 }
 
 } // namespace nephroid::ui::plan_panel_test

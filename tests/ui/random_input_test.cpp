@@ -3,7 +3,6 @@
 // presets of all engines, on fake jobs. NEPHROID_RANDOM_SECONDS=600 plays for ten minutes what was not played before; under ./test.sh asan
 // it looks for what nobody sees. And keys and clicks with modifiers that all arrive between two frames.
 #include "tests/support/process_state.h"
-#include "tests/support/test.h"
 #include "ui/shell/glfw_window.h"
 #include "window_fixture.h"
 
@@ -138,7 +137,7 @@ TEST_F(RandomInput, TheWindowStays)
   fmt::print("{} events, {} seeds from {}, {} times a preset was there\n", events_, seeds, first, presets);
 }
 
-class InputEventsTest : public ::testing::Test {
+class InputEventsTest : public testing::Test {
 protected:
   InputEventsTest() { ImGui::GetIO().ConfigInputTrickleEventQueue = true; } // as in the window
   void key(ImGuiKey which, ImGuiKey modifier, bool down)

@@ -3,7 +3,6 @@
 // event the window draws frames, and the file of --frame-times has a line of each as it is drawn.
 #pragma once
 #include "image/image.h"
-#include "tests/support/test.h"
 #include "tests/support/x_display.h"
 
 namespace nephroid::test {
@@ -25,7 +24,7 @@ class PlayedWindow {
 public:
   /// Opens a preset, until its run has begun and strips and panels, which show what the run was made with, are in their places. Files are
   /// written to the folder.
-  PlayedWindow(const std::string& preset, std::vector<std::string> options, const std::filesystem::path& folder)
+  PlayedWindow(const std::string& preset, std::vector<std::string> options, const fs::path& folder)
       : folder_(folder), program_(arguments(preset, std::move(options)), folder, folder, display_.environment())
   {
     until("a run has begun", [&] {
@@ -37,7 +36,7 @@ public:
 
   /// The window as a person begins with it in a folder where he works; without options on its start page. It keeps sessions in folder/state
   /// and caches in folder/cache.
-  PlayedWindow(std::vector<std::string> options, const std::filesystem::path& folder, const std::filesystem::path& works_in)
+  PlayedWindow(std::vector<std::string> options, const fs::path& folder, const fs::path& works_in)
       : folder_(folder),
         program_(with_times(std::move(options), folder / "frames.csv"), works_in, folder, with_own_folders(display_.environment(), folder))
   {
@@ -147,13 +146,13 @@ private:
     id_ = found.substr(0, found.find('\n'));
     send({"windowfocus", "--sync", id_});
   }
-  static std::vector<std::string> with_times(std::vector<std::string> options, const std::filesystem::path& file)
+  static std::vector<std::string> with_times(std::vector<std::string> options, const fs::path& file)
   {
-    std::filesystem::remove(file); // of a window before this one
+    fs::remove(file); // of a window before this one
     options.insert(options.end(), {"--frame-times", file.string()});
     return options;
   }
-  static Environment with_own_folders(Environment environment, const std::filesystem::path& folder)
+  static Environment with_own_folders(Environment environment, const fs::path& folder)
   {
     environment["XDG_STATE_HOME"] = (folder / "state").string();
     environment.merge(own_cache(folder / "cache"));
@@ -188,13 +187,13 @@ private:
     settle();
   }
 
-  std::filesystem::path folder_;
+  fs::path folder_;
   XDisplay display_;
   Child program_;
   std::string id_;
 };
 
-class RealWindow : public ::testing::Test {
+class RealWindow : public testing::Test {
 protected:
   void SetUp() override
   {
@@ -217,7 +216,7 @@ protected:
 };
 
 /// With the folder docs in NEPHROID_PICTURES a picture of its pages is written there, with 256 colours: that is a fifth of its bytes.
-inline void keep_for_docs(const std::filesystem::path& picture)
+inline void keep_for_docs(const fs::path& picture)
 {
   const char* docs = std::getenv("NEPHROID_PICTURES");
   if (!docs) return;

@@ -3,22 +3,13 @@
 // mouse and keys, and says where things are by now. A screenshot a step; with the folder docs in NEPHROID_PICTURES a sheet of them is made
 // there, and in NEPHROID_SHOTS they are kept whole.
 #pragma once
-#include "base/files.h"
 #include "real_window.h"
 #include "tests/support/process_state.h"
 #include "ui/presets/panel.h"
 #include "ui/state/session.h"
 #include "window_fixture.h"
 
-#include <fmt/format.h>
 #include <imgui_internal.h>
-
-#include <array>
-#include <cstdlib>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace nephroid::test {
 
@@ -31,7 +22,7 @@ public:
 
   /// name: of the sheet, session-NAME.jpg. What the window saves by a name alone is in saved(). opened_lately: a preset's text; the file
   /// saved()/NAME.json has it, and the start page lists it.
-  RecordedSession(std::string name, const std::filesystem::path& folder, const std::string& opened_lately = {})
+  RecordedSession(std::string name, const fs::path& folder, const std::string& opened_lately = {})
       : name_(std::move(name)), folder_(folder), aside_(made(folder / "aside")),
         window_({"--size", fmt::format("{}x{}", size[0], size[1])}, folder, prepared(opened_lately))
   {
@@ -172,17 +163,17 @@ public:
     window_.until("the run is over", over);
     window_.settle();
   }
-  void until_there(const std::filesystem::path& file)
+  void until_there(const fs::path& file)
   {
-    window_.until(file.string() + " is written", [&] { return std::filesystem::exists(saved() / file); });
+    window_.until(file.string() + " is written", [&] { return fs::exists(saved() / file); });
     window_.settle(5);
   }
 
   // What is left of it.
 
-  std::filesystem::path saved() const { return folder_ / "saved"; }
+  fs::path saved() const { return folder_ / "saved"; }
   /// The preset that was opened lately.
-  std::filesystem::path file() const { return saved() / (name_ + ".json"); }
+  fs::path file() const { return saved() / (name_ + ".json"); }
 
   /// A screenshot; `what` is its title on the sheet.
   void shot(const std::string& what)
@@ -192,8 +183,7 @@ public:
     window_.picture(file);
     shots_.emplace_back(folder_ / file, what);
     const char* kept = std::getenv("NEPHROID_SHOTS");
-    if (kept)
-      std::filesystem::copy_file(folder_ / file, std::filesystem::path(kept) / file, std::filesystem::copy_options::overwrite_existing);
+    if (kept) fs::copy_file(folder_ / file, fs::path(kept) / file, fs::copy_options::overwrite_existing);
   }
   /// For a page of the docs: with what the mouse is over now.
   image::Image picture(const std::string& name)
@@ -209,15 +199,14 @@ public:
     const Ended ended = window_.quit();
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     make_sheet();
-    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "state/nephroid/sessions"))
-      if (const auto file = entry.path() / "session.json"; std::filesystem::exists(file))
-        return ui::parse_session(read_file(file), file.string());
+    for (const auto& entry : fs::directory_iterator(folder_ / "state/nephroid/sessions"))
+      if (const auto file = entry.path() / "session.json"; fs::exists(file)) return ui::parse_session(read_file(file), file.string());
     throw std::runtime_error("the window left no session");
   }
 
 private:
   /// Where the window works.
-  std::filesystem::path prepared(const std::string& opened_lately) const
+  fs::path prepared(const std::string& opened_lately) const
   {
     made(saved());
     if (opened_lately.empty()) return saved();
@@ -225,9 +214,9 @@ private:
     write_file_whole(made(folder_ / "state/nephroid") / "recent.json", fmt::format(R"({{"recent":[{{"file":"{}"}}]}})", file().string()));
     return saved();
   }
-  static std::filesystem::path made(const std::filesystem::path& folder)
+  static fs::path made(const fs::path& folder)
   {
-    std::filesystem::create_directories(folder);
+    fs::create_directories(folder);
     return folder;
   }
   void draw(int frames)
@@ -246,14 +235,14 @@ private:
   }
 
   std::string name_;
-  std::filesystem::path folder_, aside_;
+  fs::path folder_, aside_;
   CurrentFolder here_{aside_}; // the window without a display saves, too
   Headless imgui_;
   Runs runs_;
   ui::Workbench workbench_{runs_};
   ui::Workspace workspace_;
   PlayedWindow window_;
-  std::vector<std::pair<std::filesystem::path, std::string>> shots_; ///< a file and its title
+  std::vector<std::pair<fs::path, std::string>> shots_; ///< a file and its title
 };
 
 } // namespace nephroid::test

@@ -9,11 +9,11 @@ using namespace std::chrono_literals;
 
 class RelightingTest : public test::WorkbenchFixture {
 protected:
-  void open(int steps, bool relight = true)
+  void open(int steps, const std::string& setting = "spectral.relight=true")
   {
     runs.steps = steps;
     runs.reference = std::make_shared<measure::Reference>();
-    ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {relight ? "spectral.relight=true" : "seed=1"}));
+    ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text), {setting}));
     ASSERT_TRUE(until(
         [&] { return workbench.run().snapshot() && workbench.run().plan() && workbench.run().status().state != job::State::preparing; }));
   }
@@ -61,7 +61,7 @@ TEST_F(RelightingTest, AnotherSceneOrCameraStartsANewRun)
 
 TEST_F(RelightingTest, WithoutLayersEveryEditStartsANewRun)
 {
-  open(100000, false);
+  open(100000, "seed=1");
   edit_power(20);
   ASSERT_TRUE(until([&] { return runs.made == 2; }));
   EXPECT_EQ(runs.adopted, 0);
@@ -70,7 +70,7 @@ TEST_F(RelightingTest, WithoutLayersEveryEditStartsANewRun)
 TEST_F(RelightingTest, ARunThatIsFinishedIsRelit)
 {
   open(3);
-  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::finished; }));
+  ASSERT_TRUE(until(job::State::finished));
   edit_power(30);
   ASSERT_TRUE(shows(30));
   EXPECT_EQ(workbench.run().status().state, job::State::finished);
@@ -81,29 +81,24 @@ TEST_F(RelightingTest, ARunThatIsPausedIsRelitAndStaysPaused)
 {
   open(100000);
   workbench.apply({command::Pause{true}});
-  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::paused; }));
+  ASSERT_TRUE(until(job::State::paused));
   edit_power(30);
   ASSERT_TRUE(shows(30));
   EXPECT_EQ(workbench.run().status().state, job::State::paused);
 }
 
-TEST_F(RelightingTest, AfterACancelAnEditStartsANewRun)
+TEST_F(RelightingTest, AfterACancelAndWhereTheJobDoesNotAdoptAnEditStartsANewRun)
 {
   open(100000);
   workbench.apply({command::Cancel{}});
-  ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::cancelled; }));
+  ASSERT_TRUE(until(job::State::cancelled));
   edit_power(30);
   ASSERT_TRUE(shows(30));
   EXPECT_EQ(runs.made, 2);
-}
-
-TEST_F(RelightingTest, AJobThatDoesNotAdoptIsReplaced)
-{
   runs.adopts = false;
-  open(100000);
-  edit_power(30);
-  ASSERT_TRUE(shows(30));
-  EXPECT_EQ(runs.made, 2);
+  edit_power(40);
+  ASSERT_TRUE(shows(40));
+  EXPECT_EQ(runs.made, 3);
 }
 
 TEST_F(RelightingTest, ALightThatCannotBeUsedIsOneMessageAndTheNextOneGoesOn)
@@ -122,7 +117,7 @@ TEST_F(RelightingTest, TheReferenceIsOfTheOldLight)
 {
   open(100000);
   workbench.apply({command::CompareWith{}});
-  EXPECT_THAT(workbench.comparing().why_not(), ::testing::Not(HasSubstr("no reference")));
+  EXPECT_THAT(workbench.comparing().why_not(), Not(HasSubstr("no reference")));
   edit_power(20);
   ASSERT_TRUE(shows(20));
   EXPECT_NE(workbench.comparing().why_not(), "");

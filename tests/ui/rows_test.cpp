@@ -99,7 +99,7 @@ TEST(SortedRows, TheWidestGapIsWithinTheVisible)
   EXPECT_EQ(middle_of_widest_gap({{500, 1.6}, {2000, 1.5}}), 640) << "from 500 to 780 nm";
 }
 
-class RowEditorTest : public ::testing::Test {
+class RowEditorTest : public testing::Test {
 protected:
   Gestures gestures{"test"};
   RowEditor editor{gestures};

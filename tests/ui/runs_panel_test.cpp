@@ -3,20 +3,19 @@
 #include "measure/history_file.h"
 #include "ui/runs/panel.h"
 #include "ui/state/run_record.h"
-#include "ui/state/session_keeper.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::runs_panel_test {
 
-class RunsPanelTest : public test::WindowFixtureOf<test::FakeRuns> {
+class RunsPanelTest : public test::WindowFixture {
 protected:
-  RunsPanelTest() : WindowFixtureOf("runs") { runs.plan.engine = "spectral"; }
+  RunsPanelTest() : WindowFixture("runs") { runs.plan.engine = "spectral"; }
 
   const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
   void click_on(const std::string& widget) { click_in(panel(), widget); }
   void edit(const std::function<void(preset::Preset&)>& change)
   {
-    WindowFixtureOf::edit(change);
+    WindowFixture::edit(change);
     ASSERT_TRUE(until_current());
     finish();
   }
@@ -198,11 +197,11 @@ TEST_F(RunsPanelTest, AReportThatCannotBeWrittenLeavesNothing)
   EXPECT_FALSE(is_there(folder.path() / "page-runs"));
   // A page that cannot be written where a folder is takes what was written beside it along, and nothing that was there.
   const auto of_others = folder.path() / "page-runs";
-  std::filesystem::create_directory_symlink("a disk that is not there now", of_others);
-  std::filesystem::create_directories(folder.path() / "page.html");
+  fs::create_directory_symlink("a disk that is not there now", of_others);
+  fs::create_directories(folder.path() / "page.html");
   EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("page.html"));
   EXPECT_TRUE(workbench.messages().back().error);
-  EXPECT_TRUE(std::filesystem::is_symlink(of_others));
+  EXPECT_TRUE(fs::is_symlink(of_others));
   EXPECT_FALSE(is_there(folder.path() / "page-runs-2"));
 }
 
@@ -223,7 +222,7 @@ TEST_F(RunsPanelTest, AFolderThatWasReadIsTakenAsItIs)
   EXPECT_FALSE(is_there(folder.path() / "page-runs" / "01-before"));
   EXPECT_TRUE(is_there(folder.path() / "page-runs" / "02-Test--edit"));
   // The folder is gone: what was read of it is written.
-  std::filesystem::remove_all(folder.path() / "before");
+  fs::remove_all(folder.path() / "before");
   EXPECT_THAT(report((folder.path() / "page.html").string()), HasSubstr("over 2 runs"));
   EXPECT_TRUE(is_there(folder.path() / "page-runs-2" / "01-before" / "image.exr"));
 }
@@ -232,17 +231,10 @@ TEST_F(RunsPanelTest, ASessionKeepsWhatIsKnownOfAPin)
 {
   run_measured();
   press(ImGuiKey_P);
-  const auto state = folder.path() / "state";
-  {
-    SessionKeeper keeper(state);
-    keeper.close(workbench);
-  }
-  test::FakeRuns other_runs;
-  Workbench other(other_runs);
-  SessionKeeper keeper(state);
-  keeper.reopen(other);
-  ASSERT_TRUE(eventually([&] { other.update(); }, [&] { return other.comparing().pinned().all().size() == 1; }));
-  const PinnedRun pin = other.comparing().pinned().all()[0];
+  test::Bench next;
+  reopen_in(next.workbench);
+  ASSERT_TRUE(next.until([&] { return next.workbench.comparing().pinned().all().size() == 1; }));
+  const PinnedRun pin = next.workbench.comparing().pinned().all()[0];
   EXPECT_EQ(pin.name, "Test");
   ASSERT_TRUE(pin.record && pin.record->preset);
   EXPECT_EQ(pin.record->engine, "spectral");
@@ -257,7 +249,7 @@ TEST_F(RunsPanelTest, ADamagedFolderIsSaidOnce)
 {
   open();
   const auto bad = folder.path() / "bad";
-  std::filesystem::create_directories(bad);
+  fs::create_directories(bad);
   write_file_whole(bad / "history.csv", measure::to_csv(*falling_history(3)));
   write_file_whole(bad / "run.json", "{\"engine\": 7, \"units\": [], \"work_seconds\": \"long\", \"finished\": 1}");
   write_file_whole(bad / "preset.json", "{\"engine\": \"none of ours\"}");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What leaves the window and what comes in from nothing: the command line on the clipboard, saving with the parent kept, new scenes, a glTF
 // file that is dropped.
-#include "base/files.h"
 #include "engine/engine.h"
 #include "preset/differences.h"
 #include "preset/read.h"
@@ -44,8 +43,7 @@ TEST_F(SavingTest, TheCommandLineIsOnTheClipboard)
 
 TEST_F(SavingTest, WithoutAFileTheCommandLineSaysToSaveFirst)
 {
-  workbench.apply({command::New{engine::engines().front()->introduction.new_scene.preset}});
-  frames(3);
+  apply({command::New{engine::engines().front()->introduction.new_scene.preset}});
   ImGui::SetClipboardText("before");
   press_with_shift(ImGuiKey_C);
   EXPECT_EQ(std::string(ImGui::GetClipboardText()), "before");
@@ -71,7 +69,6 @@ TEST_F(SavingTest, SaveAsOffersTheParentAndNamesItFromTheNewFolder)
   ASSERT_TRUE(workspace.dialogs().place_of("keep the parent"));
   retype(folder.path() / "deep/saved.json");
   press(ImGuiKey_Enter);
-  frames(2);
   EXPECT_EQ(read(folder.path() / "deep/saved.json"), Json::parse(R"({"parent":"../parent.json","name":"child","seed":5})"));
   EXPECT_EQ(workbench.preset()->source, folder.path() / "deep/saved.json");
 }

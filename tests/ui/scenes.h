@@ -10,9 +10,6 @@
 #include "ui/shell/panels.h"
 #include "ui/view/sight.h"
 
-#include <memory>
-#include <string>
-
 namespace nephroid::test {
 
 /// From (0, 0, 4) to the origin, 40 degrees high. The ball is at the left, the light at the upper right.

@@ -30,11 +30,7 @@ protected:
   }
   Point at(double x, double y, double z) const { return *sight().to_screen({x, y, z}); }
   Selection selected() const { return workbench.chosen().selection; }
-  void select(const Selection& selection)
-  {
-    workbench.apply({command::Select{selection}});
-    frames(3);
-  }
+  void select(const Selection& selection) { apply({command::Select{selection}}); }
   /// On the screen: 0 their middle; 1, 2, 3 along x, y, z.
   Point handle(std::size_t i) const { return (*view().overlay().gizmo().places())[i]; }
   std::string undo() const { return workbench.edits()->undo_label(); }
@@ -57,8 +53,7 @@ TEST_F(Select, AClickSelectsWhatIsThere)
 TEST_F(Select, ADragOrbitsAndSelectsNothing)
 {
   open();
-  const Point from = at(-0.5, 0, 0);
-  drag_between(from, {from[0] + 40, from[1]});
+  drag_by(at(-0.5, 0, 0), 40);
   EXPECT_EQ(selected(), nothing);
   EXPECT_EQ(undo(), "orbit");
 }
@@ -163,7 +158,6 @@ TEST_F(Select, ADragThatLeavesTheViewGoesOn)
   open();
   select(ball);
   press(ImGuiKey_S);
-  frames(2);
   ASSERT_EQ(workbench.chosen().handles.tool, Handles::Tool::scale);
   const Point tip = handle(1);
   const double right = view().canvas().corner[0] + view().canvas().size[0];
@@ -184,7 +178,6 @@ TEST_F(Select, ACircleTurnsTheFloor)
   open();
   select(floor_quad);
   press(ImGuiKey_U);
-  frames(2);
   // The circle about z, towards the camera, is a circle in the picture: from its right to its top is a quarter.
   const Point middle = handle(0), right = handle(1);
   const double radius = 1.2 * (right[0] - middle[0]); // ImGuizmo's circles are wider than its arrows are long
@@ -204,8 +197,7 @@ TEST_F(Select, ALightIsMovedAndAimed)
 {
   open();
   select(spot);
-  Point tip = handle(1);
-  drag_between(tip, {tip[0] + 30, tip[1]});
+  drag_by(handle(1), 30);
   EXPECT_GT(scene().lights[1].position[0], -1);
   EXPECT_EQ(scene().lights[1].position[1], 1);
   press(ImGuiKey_U);
@@ -265,7 +257,6 @@ TEST_F(Select, OwnAxesAreThoseOfTheObject)
   select(floor_quad);
   edit([&](preset::Preset& p) { p.scene.objects[1].transform.rotate_deg = {0, 0, 90}; });
   press(ImGuiKey_W);
-  frames(3);
   const Point tip = handle(1); // its x is the scene's y
   drag_between(tip, {tip[0], tip[1] - 40});
   EXPECT_GT(scene().objects[1].transform.translate[1], -0.95);
@@ -277,12 +268,10 @@ TEST_F(Select, HiddenIconsAreNotInTheWay)
   open();
   select(ball);
   press(ImGuiKey_H);
-  frames(2);
   EXPECT_FALSE(view().overlay().gizmo().places());
   click(at(0.9, 0.9, 0));
   EXPECT_EQ(selected(), ball) << "a click selects nothing else";
   press(ImGuiKey_H);
-  frames(2);
   EXPECT_TRUE(view().overlay().gizmo().places());
 }
 
@@ -291,8 +280,7 @@ TEST_F(Select, AMoveIsAdoptedByTheEnvironmentsRun)
   open(test::ball_text("environment"));
   select(ball);
   const int made = runs.made;
-  const Point tip = handle(1);
-  drag_between(tip, {tip[0] + 60, tip[1]}, 30);
+  drag_by(handle(1), 60, 0, 30);
   EXPECT_GT(scene().objects[0].transform.translate[0], -0.4);
   EXPECT_TRUE(until_current());
   EXPECT_EQ(runs.made, made) << "no run was started again";

@@ -6,45 +6,34 @@
 namespace nephroid::ui::session_test {
 
 /// A window without a display: a workbench with its keeper.
-struct Window {
-  explicit Window(const std::filesystem::path& state) : keeper(state) {}
-  void finish()
+struct Window : test::Bench {
+  explicit Window(const fs::path& state, const std::string& preset = {}) : keeper(state)
   {
-    ASSERT_TRUE(eventually([&] { workbench.update(); }, [&] { return workbench.run().status().state == job::State::finished; }));
+    EXPECT_TRUE(preset.empty() || workbench.open(preset));
   }
   /// Until everything is in the files.
   void settle()
   {
-    ASSERT_TRUE(eventually([&] { workbench.update(); }, [&] { return !workbench.works_on_files(); }));
+    ASSERT_TRUE(until([&] { return !workbench.works_on_files(); }));
     for (int i = 0; i < 100; ++i) {
       keeper.update(workbench, later += std::chrono::seconds(20));
       workbench.update();
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
   }
-  void edit(const std::function<void(preset::Preset&)>& change)
-  {
-    preset::Preset edited = *workbench.preset();
-    change(edited);
-    workbench.apply({command::Edit{"edit", edited}});
-  }
 
-  FakeRuns runs;
-  Workbench workbench{runs};
   SessionKeeper keeper;
   SessionKeeper::Clock::time_point later = SessionKeeper::Clock::now(); ///< of the keeper, which writes at most once a second
 };
 
-class SessionTest : public ::testing::Test {
+class SessionTest : public testing::Test {
 protected:
   TemporaryFolder folder;
-  std::filesystem::path state() const { return folder.path() / "state"; }
+  fs::path state() const { return folder.path() / "state"; }
   std::string preset_file() const { return folder.write("test.json", test::preset_text); }
   std::string text_of(const Workbench& workbench) const
   {
-    Session session;
-    session.edits = workbench.edits()->state();
-    session.chosen = workbench.chosen();
+    Session session{.edits = workbench.edits()->state(), .chosen = workbench.chosen()};
     return SessionText().of(session);
   }
 };
@@ -87,8 +76,7 @@ void change_something(preset::Preset& preset, std::mt19937& random)
 
 TEST_F(SessionTest, AHundredEditsUndoneGiveTheSameBytes)
 {
-  Window window(state());
-  ASSERT_TRUE(window.workbench.open(preset_file()));
+  Window window(state(), preset_file());
   std::mt19937 random(7);
   std::vector<std::string> states{preset::to_json(*window.workbench.preset())};
   for (int i = 0; i < 100; ++i) {
@@ -119,8 +107,7 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
       states.push_back(preset::to_json(*window.workbench.preset()));
     }
     for (int i = 0; i < 20; ++i) window.workbench.apply({command::Undo{}});
-    Look look;
-    look.exposure_stops = 1.5;
+    Look look{.exposure_stops = 1.5};
     window.workbench.apply({command::SetLook{look}, command::ChooseMetric{"mse"}, command::AddBookmark{}});
     window.settle();
   } // not closed
@@ -142,7 +129,7 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
   }
   EXPECT_FALSE(window.workbench.edits()->modified()) << "back at what the file has";
   window.settle();
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(state() / "sessions"), {}), 1) << "the old one is not needed any more";
+  EXPECT_EQ(std::distance(fs::directory_iterator(state() / "sessions"), {}), 1) << "the old one is not needed any more";
 }
 
 TEST_F(SessionTest, PinnedRunsComeBackWithTheirPictures)
@@ -151,7 +138,7 @@ TEST_F(SessionTest, PinnedRunsComeBackWithTheirPictures)
     Window window(state());
     window.runs.history = [](int steps) { return test::falling_history(steps); };
     ASSERT_TRUE(window.workbench.open(preset_file()));
-    window.finish();
+    ASSERT_TRUE(window.until(job::State::finished));
     window.workbench.apply({command::PinRun{}, command::ChangePin{1, "kept", 0xff112233, false}});
     window.settle();
   }
@@ -171,8 +158,7 @@ TEST_F(SessionTest, PinnedRunsComeBackWithTheirPictures)
 TEST_F(SessionTest, AClosedWindowIsOfferedButNotOpened)
 {
   {
-    Window window(state());
-    ASSERT_TRUE(window.workbench.open(preset_file()));
+    Window window(state(), preset_file());
     window.keeper.close(window.workbench);
   }
   Window window(state());
@@ -187,11 +173,7 @@ TEST_F(SessionTest, AClosedWindowIsOfferedButNotOpened)
 
 TEST_F(SessionTest, AReopenedSessionIsGoneWhenTheNextIsKept)
 {
-  {
-    Window killed(state());
-    ASSERT_TRUE(killed.workbench.open(preset_file()));
-    killed.settle();
-  }
+  Window(state(), preset_file()).settle(); // killed
   {
     Window closed(state());
     closed.keeper.reopen(closed.workbench);
@@ -205,11 +187,7 @@ TEST_F(SessionTest, AReopenedSessionIsGoneWhenTheNextIsKept)
 
 TEST_F(SessionTest, OnlyOneWindowReopensASession)
 {
-  {
-    Window killed(state());
-    ASSERT_TRUE(killed.workbench.open(preset_file()));
-    killed.settle();
-  }
+  Window(state(), preset_file()).settle(); // killed
   Window first(state()), second(state());
   EXPECT_FALSE(first.keeper.killed_session().empty());
   EXPECT_FALSE(second.keeper.killed_session().empty());
@@ -218,16 +196,14 @@ TEST_F(SessionTest, OnlyOneWindowReopensASession)
   EXPECT_TRUE(Window(state()).keeper.killed_session().empty()) << "it is this window's, though it was not kept yet";
   second.keeper.reopen(second.workbench);
   EXPECT_EQ(second.workbench.preset(), nullptr);
-  ASSERT_EQ(second.workbench.messages().size(), 1u);
-  EXPECT_EQ(second.workbench.messages()[0].line, "the earlier session was opened in another window");
+  EXPECT_EQ(only_message(second.workbench), "the earlier session was opened in another window");
   first.settle();
   EXPECT_TRUE(Window(state()).keeper.killed_session().empty());
 }
 
 TEST_F(SessionTest, AWindowThatIsOpenKeepsItsOwn)
 {
-  Window first(state());
-  ASSERT_TRUE(first.workbench.open(preset_file()));
+  Window first(state(), preset_file());
   first.settle();
   Window second(state());
   EXPECT_TRUE(second.keeper.killed_session().empty());
@@ -236,10 +212,7 @@ TEST_F(SessionTest, AWindowThatIsOpenKeepsItsOwn)
 
 TEST_F(SessionTest, AWindowThatOpenedNothingLeavesNothing)
 {
-  {
-    Window window(state());
-    window.settle();
-  } // killed on its start page
+  Window(state()).settle(); // killed on its start page
   Window window(state());
   EXPECT_TRUE(window.keeper.killed_session().empty());
   EXPECT_FALSE(window.keeper.has_earlier());
@@ -247,26 +220,19 @@ TEST_F(SessionTest, AWindowThatOpenedNothingLeavesNothing)
 
 TEST_F(SessionTest, WhatIsCutIsRefusedInOneLine)
 {
-  Window window(state());
-  ASSERT_TRUE(window.workbench.open(preset_file()));
+  Window window(state(), preset_file());
   window.edit([](preset::Preset& preset) { preset.seed = 5; });
   const std::string whole = text_of(window.workbench);
   EXPECT_NO_THROW(parse_session(whole, "whole"));
   for (std::size_t length = 0; length < whole.size(); length += 7) {
-    try {
-      parse_session(whole.substr(0, length), "cut.json");
-      FAIL() << "at " << length;
-    } catch (const Error& error) {
-      EXPECT_THAT(error.line(), ::testing::StartsWith("cut.json: "));
-      EXPECT_THAT(error.line(), ::testing::Not(::testing::HasSubstr("\n")));
-    }
+    const std::string line = error_of([&] { parse_session(whole.substr(0, length), "cut.json"); }).line();
+    EXPECT_THAT(line, AllOf(StartsWith("cut.json: "), Not(HasSubstr("\n")))) << "at " << length;
   }
 }
 
 TEST_F(SessionTest, WrongValuesAreRefused)
 {
-  Window window(state());
-  ASSERT_TRUE(window.workbench.open(preset_file()));
+  Window window(state(), preset_file());
   const std::string whole = text_of(window.workbench);
   const auto with = [&](const std::string& from, const std::string& to) { return replaced(whole, from, to); };
   EXPECT_THROW(parse_session(with("\"index\":0", "\"index\":7"), ""), Error);
@@ -281,13 +247,8 @@ TEST_F(SessionTest, WrongValuesAreRefused)
 
 TEST_F(SessionTest, AnUnreadableSessionIsKeptUnderAnotherName)
 {
-  std::filesystem::path session;
-  {
-    Window window(state());
-    ASSERT_TRUE(window.workbench.open(preset_file()));
-    window.settle();
-    session = std::filesystem::directory_iterator(state() / "sessions")->path();
-  }
+  Window(state(), preset_file()).settle();
+  const fs::path session = fs::directory_iterator(state() / "sessions")->path();
   write_file_whole(session / "session.json", "{\"version\": 1, \"closed\": false, ");
   Window window(state());
   EXPECT_FALSE(window.keeper.killed_session().empty());
@@ -295,30 +256,27 @@ TEST_F(SessionTest, AnUnreadableSessionIsKeptUnderAnotherName)
   EXPECT_EQ(window.workbench.preset(), nullptr);
   ASSERT_EQ(window.workbench.messages().size(), 1u);
   EXPECT_TRUE(window.workbench.messages()[0].error);
-  EXPECT_TRUE(std::filesystem::exists(session.string() + ".unreadable/session.json"));
+  EXPECT_TRUE(fs::exists(session.string() + ".unreadable/session.json"));
   EXPECT_FALSE(window.keeper.has_earlier());
 }
 
 TEST_F(SessionTest, WhereNothingCanBeKeptItIsSaidOnceAndTheWindowGoesOn)
 {
-  Window window(state());
-  ASSERT_TRUE(window.workbench.open(preset_file()));
-  const std::filesystem::path own = std::filesystem::directory_iterator(state() / "sessions")->path();
-  std::filesystem::remove_all(own);
+  Window window(state(), preset_file());
+  const fs::path own = fs::directory_iterator(state() / "sessions")->path();
+  fs::remove_all(own);
   write_file_whole(own, "a file where the folder was");
   window.settle();
   window.edit([](preset::Preset& preset) { preset.seed = 9; });
   window.settle();
-  ASSERT_EQ(window.workbench.messages().size(), 1u);
-  EXPECT_THAT(window.workbench.messages()[0].line, ::testing::HasSubstr("save the preset elsewhere"));
+  EXPECT_THAT(only_message(window.workbench), HasSubstr("save the preset elsewhere"));
   EXPECT_EQ(window.workbench.preset()->seed, 9u);
 }
 
 TEST_F(SessionTest, SettingsAreThoseOfTheLastWindow)
 {
   {
-    Window window(state());
-    ASSERT_TRUE(window.workbench.open(preset_file()));
+    Window window(state(), preset_file());
     window.workbench.apply({command::SetAppearance{Theme::light, 1.21}, command::ShowPanel{"plan", false},
                             command::KeepLayout{"inverse", "[Window][Plan]\nPos=1,2\n"}});
     window.settle();

@@ -168,7 +168,7 @@ TEST(SpectraMaker, WritesEveryCurveAsCsv)
               StartsWith("wavelength_nm,light 1,luminosity,\"reflectance of floor\",\"reflectance of red\",u,cluster,iterations\n380,"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 402);
   EXPECT_THAT(csv, HasSubstr("\n555,")) << csv;
-  EXPECT_THAT(csv, ::testing::EndsWith(",100\n")) << "equal effort: every cluster has every pass";
+  EXPECT_THAT(csv, EndsWith(",100\n")) << "equal effort: every cluster has every pass";
 }
 
 TEST(WavelengthColour, IsBlueThenGreenThenRed)

@@ -206,10 +206,7 @@ TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
 {
   open_room(table);
   const auto with_light = [&](const preset::LightSpectrum& spectrum) {
-    preset::Preset edited = *workbench.preset();
-    edited.scene.lights = {edited.scene.lights.empty() ? preset::Light{} : edited.scene.lights[0]};
-    edited.scene.lights[0].spectrum = spectrum;
-    workbench.apply({command::Edit{"light", edited}});
+    edit([&](preset::Preset& p) { p.scene.lights.at(0).spectrum = spectrum; });
     frames(3);
   };
   with_light({Type::table, "", 0, {{800, 1}, {900, 1}}});
@@ -218,24 +215,20 @@ TEST_F(SpectraPanelTest, WhatIsWrongIsASentence)
   EXPECT_THAT(spectra().clusters, IsEmpty());
   with_light({Type::illuminant, "D66", 0, {}});
   EXPECT_THAT(spectra().lights[0].error, HasSubstr("D65"));
-  preset::Preset edited = *workbench.preset();
-  edited.scene.lights.clear();
-  workbench.apply({command::Edit{"no light", edited}});
+  edit([](preset::Preset& p) { p.scene.lights.clear(); });
   frames(3);
-  edited.scene.lights = {preset::Light{}};
-  edited.scene.materials["glass"].dispersion.coefficients = {-1};
-  workbench.apply({command::Edit{"no glass", edited}});
+  edit([](preset::Preset& p) { p.scene.lights = {preset::Light{}}, p.scene.materials["glass"].dispersion.coefficients = {-1}; });
   frames(3);
   EXPECT_NE(spectra().why_no_u, "");
-  for (const Message& message : workbench.messages()) EXPECT_THAT(message.line, ::testing::Not(HasSubstr(SpectraPanel::title)));
+  for (const Message& message : workbench.messages()) EXPECT_THAT(message.line, Not(HasSubstr(SpectraPanel::title)));
 }
 
 TEST_F(SpectraPanelTest, NothingThatMattersIsASentence)
 {
   open_room(table);
-  preset::Preset edited = *workbench.preset();
-  for (const char* name : {"red", "floor"}) edited.scene.materials[name].reflectance = {preset::Reflectance::Type::constant, 0, "", {}};
-  workbench.apply({command::Edit{"black", edited}});
+  edit([](preset::Preset& p) {
+    for (const char* name : {"red", "floor"}) p.scene.materials[name].reflectance = {.value = 0};
+  });
   frames(3);
   EXPECT_THAT(spectra().why_no_u, HasSubstr("0 at every wavelength"));
   EXPECT_THAT(spectra().clusters, IsEmpty());

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sweep of a preset in the window: opened, edited, saved, undone; its runs in a queue, each pinned; the report over them.
-#include "tests/support/errors.h"
 #include "ui/runs/panel.h"
 #include "ui/runs/sweep_section.h"
 #include "ui/state/run_record.h"
-#include "ui/state/session_keeper.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::sweep_test {
 
 using Queue = SweepQueue::State;
 
-class SweepTest : public test::WindowFixtureOf<test::FakeRuns> {
+class SweepTest : public test::WindowFixture {
 protected:
-  SweepTest() : WindowFixtureOf("runs") {}
+  SweepTest() : WindowFixture("runs") {}
 
   static std::string swept(const std::string& sweep)
   {
@@ -22,13 +20,17 @@ protected:
   }
   const RunsPanel& panel() const { return workspace.panel<RunsPanel>(); }
   void click_on(const std::string& widget) { click_in(panel(), widget); }
+  void fill(const std::string& widget, const std::string& text)
+  {
+    click_on(widget);
+    retype(text);
+  }
   void choose(const std::string& key)
   {
     click_on("sweep field");
     frames(2);
     retype(key);
     press(ImGuiKey_Enter);
-    frames(2);
   }
   /// Until no run of the sweep is to come.
   void work_off()
@@ -37,8 +39,6 @@ protected:
     ASSERT_TRUE(until([&] { return !workbench.sweep().active(); }));
     frame();
   }
-  /// Until the run in hand is of the present preset again.
-  void come_back() { ASSERT_TRUE(until_current()); }
   std::vector<Queue> states() const
   {
     std::vector<Queue> all;
@@ -105,9 +105,9 @@ TEST_F(SweepTest, FieldsAreThoseOfThePresetThatHoldANumber)
   open();
   std::vector<std::string> keys;
   for (const NumberField& field : number_fields(*workbench.preset())) keys.push_back(field.key);
-  EXPECT_THAT(keys, ::testing::IsSupersetOf({"seed", "white", "scene.camera.fov_deg", "scene.lights.0.power_w", "spectral.threshold_deg",
-                                             "stop.passes", "stop.seconds", "scene.materials.wall.reflectance.value"}));
-  EXPECT_THAT(keys, ::testing::Not(::testing::Contains(HasSubstr("inverse"))));
+  EXPECT_THAT(keys, IsSupersetOf({"seed", "white", "scene.camera.fov_deg", "scene.lights.0.power_w", "spectral.threshold_deg",
+                                  "stop.passes", "stop.seconds", "scene.materials.wall.reflectance.value"}));
+  EXPECT_THAT(keys, Not(Contains(HasSubstr("inverse"))));
 }
 
 TEST_F(SweepTest, APresetWithASweepIsOpenedAndSavedWithIt)
@@ -118,9 +118,8 @@ TEST_F(SweepTest, APresetWithASweepIsOpenedAndSavedWithIt)
   EXPECT_EQ(workbench.preset()->seed, 1u);
   EXPECT_EQ(workbench.preset()->name, "Test");
   EXPECT_FALSE(workbench.edits()->modified());
-  preset::Preset edited = *workbench.preset();
-  edited.scene.camera.fov_deg = 30;
-  workbench.apply({command::Edit{"edit", edited}, command::SavePreset{folder.path() / "saved.json"}});
+  edit([](preset::Preset& p) { p.scene.camera.fov_deg = 30; });
+  workbench.apply({command::SavePreset{folder.path() / "saved.json"}});
   const auto runs_of_file = preset::read_presets((folder.path() / "saved.json").string());
   ASSERT_THAT(runs_of_file, SizeIs(6));
   EXPECT_EQ(runs_of_file[5].seed, 3u);
@@ -154,7 +153,7 @@ TEST_F(SweepTest, AChildKeepsItsParentAndItsSweep)
   EXPECT_THAT(read_file(child), HasSubstr("\"parent\""));
   // What cannot be said over the parent's sweep is said without it.
   EXPECT_EQ(save({{"white", {"1.0", "2.0"}}}), 2u);
-  EXPECT_THAT(read_file(child), ::testing::Not(HasSubstr("\"parent\"")));
+  EXPECT_THAT(read_file(child), Not(HasSubstr("\"parent\"")));
 }
 
 TEST_F(SweepTest, ASweepThatCannotBeIsRefusedWithThePreset)
@@ -170,12 +169,9 @@ TEST_F(SweepTest, AFieldIsSweptByARangeAndUndone)
   click_on("sweep");
   choose("scene.lights.0.power_w");
   frames(2);
-  click_on("sweep from");
-  retype("5");
-  click_on("sweep to");
-  retype("15");
-  click_on("sweep count");
-  retype("3");
+  fill("sweep from", "5");
+  fill("sweep to", "15");
+  fill("sweep count", "3");
   click_on("sweep set");
   ASSERT_THAT(sweep(), SizeIs(1)) << panel().sweep().problem();
   EXPECT_EQ(sweep()[0], (preset::SweptField{"scene.lights.0.power_w", {"5.0", "10.0", "15.0"}}));
@@ -200,18 +196,15 @@ TEST_F(SweepTest, AListIsTypedAndEdited)
   click_on("sweep");
   choose("seed");
   click_on("sweep list");
-  click_on("sweep values");
-  retype("3, 4");
+  fill("sweep values", "3, 4");
   press(ImGuiKey_Enter);
   ASSERT_THAT(sweep(), SizeIs(1)) << panel().sweep().problem();
   EXPECT_THAT(sweep()[0].values, ElementsAre("3", "4"));
   click_on("edit seed");
-  click_on("sweep values");
-  retype("3, 4, 5");
+  fill("sweep values", "3, 4, 5");
   press(ImGuiKey_Enter);
   EXPECT_THAT(sweep()[0].values, ElementsAre("3", "4", "5"));
-  click_on("sweep values");
-  retype("3, four");
+  fill("sweep values", "3, four");
   click_on("sweep set");
   EXPECT_THAT(panel().sweep().problem(), HasSubstr("seed: a value is no number"));
   EXPECT_THAT(sweep()[0].values, SizeIs(3)) << "nothing changes";
@@ -232,7 +225,7 @@ TEST_F(SweepTest, EachRunBecomesAPin)
   ASSERT_THAT(panel().rows(), SizeIs(5));
   EXPECT_EQ(PresetDifferences().in_short(panel().rows()[4], context()), "seed: 1 -> 2, 1 more");
   // The preset in hand runs again, and it is as it was.
-  come_back();
+  ASSERT_TRUE(until_current());
   finish();
   EXPECT_FALSE(workbench.edits()->modified());
   EXPECT_EQ(workbench.run().snapshot_origin().preset->scene.lights[0].power_w, 10);
@@ -293,7 +286,7 @@ TEST_F(SweepTest, AStopKeepsWhatIsDone)
   workbench.apply({command::StopSweep{}});
   EXPECT_FALSE(workbench.sweep().active());
   EXPECT_THAT(states(), ElementsAre(Queue::done, Queue::stopped, Queue::stopped));
-  come_back();
+  ASSERT_TRUE(until_current());
   EXPECT_THAT(pins(), SizeIs(1));
   EXPECT_EQ(workbench.run().snapshot_name(), "Test") << "the preset in hand";
 }
@@ -322,13 +315,12 @@ TEST_F(SweepTest, EditsWaitForTheEndOfTheSweep)
   open(swept(R"({"seed": [1, 2]})"));
   workbench.apply({command::StartSweep{}});
   ASSERT_TRUE(until(job::State::running));
-  preset::Preset edited = *workbench.preset();
-  edited.scene.lights[0].power_w = 20;
-  workbench.apply({command::Edit{"edit", edited}, command::Restart{}});
+  edit([](preset::Preset& p) { p.scene.lights[0].power_w = 20; });
+  workbench.apply({command::Restart{}});
   ASSERT_TRUE(until([&] { return !workbench.sweep().active(); }));
   ASSERT_THAT(pins(), SizeIs(2));
   EXPECT_EQ(pins()[1].record->preset->scene.lights[0].power_w, 10);
-  come_back();
+  ASSERT_TRUE(until_current());
   EXPECT_EQ(workbench.run().snapshot_origin().preset->scene.lights[0].power_w, 20);
 }
 
@@ -349,18 +341,12 @@ TEST_F(SweepTest, ASessionKeepsTheSweep)
 {
   open();
   workbench.apply({command::SetSweep{"sweep", {{"seed", {"1", "2"}}}}, command::SetSweep{"sweep", {{"white", {"1.0", "2.0"}}}}});
-  const auto state = folder.path() / "state";
-  {
-    SessionKeeper keeper(state);
-    keeper.close(workbench);
-  }
-  test::FakeRuns other_runs;
-  Workbench other(other_runs);
-  SessionKeeper keeper(state);
-  keeper.reopen(other);
+  test::Bench next;
+  reopen_in(next.workbench);
+  const Workbench& other = next.workbench;
   ASSERT_NE(other.edits(), nullptr);
   EXPECT_EQ(other.edits()->sweep(), sweep());
-  other.apply({command::Undo{}});
+  next.workbench.apply({command::Undo{}});
   ASSERT_THAT(other.edits()->sweep(), SizeIs(1));
   EXPECT_EQ(other.edits()->sweep()[0].key, "seed");
 }

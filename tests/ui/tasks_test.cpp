@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The queue of what takes longer than a frame: order, newest wins, cancelling, what is thrown, owners that are gone, and the end.
-#include "tests/support/eventually.h"
 #include "tests/support/test.h"
 #include "ui/state/tasks.h"
 
@@ -8,7 +7,7 @@
 
 namespace nephroid::ui::tasks_test {
 
-class TasksTest : public ::testing::Test {
+class TasksTest : public testing::Test {
 protected:
   /// Until nothing runs or waits.
   void settle()

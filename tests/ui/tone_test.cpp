@@ -6,8 +6,6 @@
 #include "tests/support/test.h"
 #include "ui/state/tone.h"
 
-#include <ctime>
-
 namespace nephroid::ui::tone_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();

@@ -4,12 +4,7 @@
 
 namespace nephroid::ui::undo_test {
 
-preset::Preset with_seed(std::uint64_t seed)
-{
-  preset::Preset preset;
-  preset.seed = seed;
-  return preset;
-}
+preset::Preset with_seed(std::uint64_t seed) { return {.seed = seed}; }
 
 TEST(UndoStack, GoesBackAndForth)
 {

@@ -8,23 +8,15 @@
 #include "ui/shell/workspace.h"
 #include "ui/spectral/dispersion/panel.h"
 #include "ui/spectral/spectra/panel.h"
+#include "ui/state/session_keeper.h"
 #include "ui/view/panel.h"
 #include "ui/widgets/theme.h"
 
 #include <imgui.h>
 
-#include <ctime>
-#include <variant>
-
 namespace nephroid::test {
 
-/// Processor time of this thread: other work of the machine does not count.
-inline double thread_ms()
-{
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
+inline double thread_ms() { return 1e3 * processor_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
 class Headless {
 public:
@@ -156,6 +148,12 @@ public:
     change(edited);
     workbench.apply({ui::command::Edit{name, edited}});
   }
+  /// Commands, and what is drawn after them.
+  void apply(const ui::Commands& commands)
+  {
+    workbench.apply(commands);
+    frames(3);
+  }
   /// Until the run is over and drawn.
   void finish()
   {
@@ -236,8 +234,10 @@ public:
     for (int i = 1; i <= steps; ++i) move({from[0] + (to[0] - from[0]) * i / steps, from[1] + (to[1] - from[1]) * i / steps});
     let_go(button);
   }
+  void drag_by(const ui::Point& from, double x, double y = 0, int steps = 10) { drag_between(from, {from[0] + x, from[1] + y}, steps); }
   /// In the View.
   void drag(int button, double dx, double dy) { drag_between(middle(), {middle()[0] + dx, middle()[1] + dy}, 5, button); }
+  /// Until what it does is drawn.
   void press(ImGuiKey key, ImGuiKey modifier = ImGuiKey_None)
   {
     if (modifier) imgui.key(modifier, true);
@@ -245,7 +245,13 @@ public:
     frame();
     imgui.key(key, false);
     if (modifier) imgui.key(modifier, false);
-    frame();
+    frames(3);
+  }
+  /// Closes this window's session, and opens it again in another one.
+  void reopen_in(ui::Workbench& other)
+  {
+    ui::SessionKeeper(folder.path() / "state").close(workbench);
+    ui::SessionKeeper(folder.path() / "state").reopen(other);
   }
   const preset::Camera& camera() const { return workbench.preset()->scene.camera; }
   double distance() const
@@ -259,7 +265,7 @@ private:
 };
 
 template <class Runs>
-class WindowFixtureOf : public ::testing::Test, public HeadlessWindow<Runs> {
+class WindowFixtureOf : public testing::Test, public HeadlessWindow<Runs> {
 protected:
   using HeadlessWindow<Runs>::HeadlessWindow;
 };

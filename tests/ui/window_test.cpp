@@ -26,26 +26,17 @@ protected:
   test::TemporaryFolder folder;
 };
 
-TEST_F(NoWindow, SaysWhatToDo)
+TEST_F(NoWindow, SaysWhatToDoButFirstWhatIsNotThere)
 {
   const test::Ended ended = run({"--frames", "1"});
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.err, StartsWith("nephroid: window: no display ("));
   EXPECT_THAT(ended.err, EndsWith("; run it in a desktop session or under xvfb-run; or use nephroid run PRESET\n"));
-}
-
-TEST_F(NoWindow, SaysFirstThatAPresetIsNotThere)
-{
-  const test::Ended ended = run({"nope.json"});
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("there is no preset"));
-}
-
-TEST_F(NoWindow, SaysFirstThatALayoutIsNotThere)
-{
-  const test::Ended ended = run({"--layout", "sideways", "--frames", "1"});
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("sideways"));
+  const test::Ended no_preset = run({"nope.json"}), no_layout = run({"--layout", "sideways", "--frames", "1"});
+  EXPECT_EQ(no_preset.exit_code, 2);
+  EXPECT_THAT(no_preset.err, HasSubstr("there is no preset"));
+  EXPECT_EQ(no_layout.exit_code, 2);
+  EXPECT_THAT(no_layout.err, HasSubstr("sideways"));
 }
 
 class WindowTest : public test::RealWindow {
@@ -106,7 +97,7 @@ TEST_F(WindowTest, AScreenshotOfAnErrorIsWrittenAndHasTheErrorsExitCode)
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.err, HasSubstr("there is no preset"));
   EXPECT_EQ(screen().width, 1280);
-  std::filesystem::remove(folder.path() / "screen.png");
+  fs::remove(folder.path() / "screen.png");
   const test::Ended no_device = with_screenshot({folder.write("test.json", test::preset_text), "--device", "abacus"});
   EXPECT_EQ(no_device.exit_code, 3);
   EXPECT_THAT(no_device.err, HasSubstr("abacus"));
@@ -136,13 +127,8 @@ TEST_F(WindowEvents, AreFollowed)
   // A run that does not end by itself; an orbit, a resize, a cancel, save, quit.
   preset::Preset endless = preset::parse_preset(test::preset_text, "test");
   endless.scene.materials["glass"].type = preset::Material::Type::dielectric;
-  preset::Object ball;
-  ball.name = "ball";
-  ball.material = "glass";
-  ball.shape = preset::Shape{};
-  ball.shape->radius = 0.3;
-  ball.transform.translate = {0, 0, 0.5};
-  endless.scene.objects.push_back(ball);
+  endless.scene.objects.push_back(
+      {.name = "ball", .shape = preset::Shape{.radius = 0.3}, .material = "glass", .transform = {.translate = {0, 0, 0.5}}});
   endless.stop.passes.reset();
   endless.stop.seconds = 3600;
   const std::string file = folder.write("test.json", preset::to_json(endless));

@@ -3,7 +3,7 @@
 // cannot be.
 #include "preset/animation.h"
 #include "preset/read.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::animation_test {
 
@@ -93,77 +93,63 @@ TEST(Animation, RoundsWholeNumbers)
   EXPECT_THAT(seeds, ElementsAre(1, 1, 2, 2, 2, 3, 3, 3, 3, 4, 4));
 }
 
-struct Case {
-  std::string track, line;
-};
-
 TEST(Animation, IsRefusedInOneLine)
 {
   const std::string key = R"("keys": [{"frame": 0, "value": 1}])";
-  const std::string at = "a.json#/animation/tracks/0/";
-  const std::vector<Case> cases = {
-      {R"({"path": "scene.objects.0.transform.trnslate", )" + key + "}",
-       at + "path: unknown key 'trnslate'; the keys here are scale, rotate_deg, translate; did you mean 'translate'?"},
-      {R"({"path": "scene.objects.1.transform.translate", )" + key + "}",
-       at + "path: 'scene.objects' is a list and has no item '1'; its items are 0 to 0"},
-      {R"({"path": "scene.objects.ball.transform.translate", )" + key + "}",
-       at + "path: 'scene.objects' is a list and has no item 'ball'; its items are 0 to 0"},
-      {R"({"path": "scene.lights.1.half_angle_deg", )" + key + "}",
-       at + "path: 'half_angle_deg' has no meaning for the type 'point'; it belongs to 'spot'; remove it or change the type"},
-      {R"({"path": "scene.environment.rotate_deg", )" + key + "}",
-       at + "path: 'scene.environment' is null and has no fields; set the whole value instead"},
-      {R"({"path": "scene.lights.0.type", )" + key + "}",
-       at + "path: 'scene.lights.0.type' is a word; expected a field with a number or a list of numbers"},
-      {R"({"path": "leave_out", )" + key + "}",
-       at + "path: 'leave_out' is true or false; expected a field with a number or a list of numbers"},
-      {R"({"path": "scene.camera", )" + key + "}",
-       at + "path: 'scene.camera' is a section; expected a field with a number or a list of numbers"},
-      {R"({"path": "scene.camera.resolution.0", )" + key + "}",
-       at + "path: 'scene.camera.resolution.0' cannot be animated; frames of one size make a video"},
-      {R"({"path": "animation.fps", )" + key + "}",
-       at + "path: 'animation.fps' cannot be animated; expected a field outside of the animation"},
-      {R"({"path": "/seed", )" + key + "}",
-       at + "path: '/seed' is no path; expected keys joined by dots, for instance scene.objects.0.transform.translate"},
-      {R"({"path": "scene..camera", )" + key + "}",
-       at + "path: 'scene..camera' is no path; expected keys joined by dots, for instance scene.objects.0.transform.translate"},
-      {R"({"path": "seed", "keys": []})", at + "keys: is an empty list; expected a list of 1 to 10000 items, each an object"},
-      {R"({"path": "seed"})", "a.json#/animation/tracks/0: has no 'keys'; this key is required"},
-      {R"({"path": "seed", "keys": [{"frame": 5, "value": 1}, {"frame": 5, "value": 2}]})",
-       at + "keys/1/frame: is 5, and the key before it is at 5; expected keys by rising frame"},
-      {R"({"path": "seed", "keys": [{"frame": 5, "value": 1}, {"frame": 2, "value": 2}]})",
-       at + "keys/1/frame: is 2, and the key before it is at 5; expected keys by rising frame"},
-      {R"({"path": "seed", "keys": [{"frame": -1, "value": 1}]})", at + "keys/0/frame: is -1; expected a whole number from 0 to 1000000"},
-      {R"({"path": "seed", "keys": [{"frame": 0, "value": 1.5}]})",
-       at + "keys/0/value: is 1.5; expected a whole number from 0 to 18446744073709551615"},
-      {R"({"path": "scene.camera.fov_deg", "keys": [{"frame": 0, "value": 30}, {"frame": 9, "value": 200}]})",
-       at + "keys/1/value: is 200; expected a number from 0.001 to 179.9 degrees"},
-      {R"({"path": "scene.camera.position", "keys": [{"frame": 0, "value": [1, 2]}]})",
-       at + "keys/0/value: is a list of 2 items; expected a list of 3 items, each a number from -10000000 to 10000000 length units"},
-      {R"({"path": "scene.camera.position", "keys": [{"frame": 0, "value": 1}]})",
-       at + "keys/0/value: is a list of 1 item; expected a list of 3 items"},
-      {R"({"path": "scene.camera.position", "keys": [{"frame": 0, "value": [1, 2, 3]}, {"frame": 1, "value": [1, 2]}]})",
-       at + "keys/1/value: has 2 numbers, and the first key has 3; expected as many in each key"},
-      {R"({"path": "scene.camera.position", "keys": [{"frame": 0, "value": "here"}]})",
-       at + "keys/0/value: is the string 'here'; expected a list of 1 to 100 items, each a number"},
-      {R"({"path": "seed", )" + key + R"(}, {"path": "seed", )" + key + "}",
-       "a.json#/animation/tracks/1/path: 'seed' has a track already, 'seed'; expected one track for a field"},
-      {R"({"path": "scene.camera.position", "keys": [{"frame": 0, "value": [1, 2, 3]}]}, {"path": "scene.camera.position.1", )" + key + "}",
-       "a.json#/animation/tracks/1/path: 'scene.camera.position.1' has a track already, 'scene.camera.position'; expected one track for a "
-       "field"},
+  const std::string at = "a.json#/animation/tracks/0/", a_number = "; expected a field with a number or a list of numbers",
+                    no_path = " is no path; expected keys joined by dots, for instance scene.objects.0.transform.translate";
+  const auto expect_refused = [](const std::string& track, const std::string& says) {
+    const std::string line = refusal_of([&] { read(tracks(track)); });
+    EXPECT_THAT(line, AllOf(StartsWith(says), Not(HasSubstr("\n")))) << track;
   };
-  for (const Case& c : cases) {
-    const std::string line = refusal_of([&] { read(tracks(c.track)); });
-    EXPECT_THAT(line, testing::StartsWith(c.line)) << c.track;
-    EXPECT_EQ(line.find('\n'), std::string::npos);
-  }
+  const std::pair<const char*, std::string> paths[] = {
+      {"scene.objects.0.transform.trnslate",
+       "unknown key 'trnslate'; the keys here are scale, rotate_deg, translate; did you mean 'translate'?"},
+      {"scene.objects.1.transform.translate", "'scene.objects' is a list and has no item '1'; its items are 0 to 0"},
+      {"scene.objects.ball.transform.translate", "'scene.objects' is a list and has no item 'ball'; its items are 0 to 0"},
+      {"scene.lights.1.half_angle_deg",
+       "'half_angle_deg' has no meaning for the type 'point'; it belongs to 'spot'; remove it or change the type"},
+      {"scene.environment.rotate_deg", "'scene.environment' is null and has no fields; set the whole value instead"},
+      {"scene.lights.0.type", "'scene.lights.0.type' is a word" + a_number},
+      {"leave_out", "'leave_out' is true or false" + a_number},
+      {"scene.camera", "'scene.camera' is a section" + a_number},
+      {"scene.camera.resolution.0", "'scene.camera.resolution.0' cannot be animated; frames of one size make a video"},
+      {"animation.fps", "'animation.fps' cannot be animated; expected a field outside of the animation"},
+      {"/seed", "'/seed'" + no_path},
+      {"scene..camera", "'scene..camera'" + no_path}};
+  for (const auto& [path, says] : paths) expect_refused(fmt::format(R"({{"path": "{}", {}}})", path, key), at + "path: " + says);
+  const std::array<std::string, 3> keys[] = {
+      {"seed", R"([])", "keys: is an empty list; expected a list of 1 to 10000 items, each an object"},
+      {"seed", R"([{"frame": 5, "value": 1}, {"frame": 5, "value": 2}])",
+       "keys/1/frame: is 5, and the key before it is at 5; expected keys by rising frame"},
+      {"seed", R"([{"frame": 5, "value": 1}, {"frame": 2, "value": 2}])",
+       "keys/1/frame: is 2, and the key before it is at 5; expected keys by rising frame"},
+      {"seed", R"([{"frame": -1, "value": 1}])", "keys/0/frame: is -1; expected a whole number from 0 to 1000000"},
+      {"seed", R"([{"frame": 0, "value": 1.5}])", "keys/0/value: is 1.5; expected a whole number from 0 to 18446744073709551615"},
+      {"scene.camera.fov_deg", R"([{"frame": 0, "value": 30}, {"frame": 9, "value": 200}])",
+       "keys/1/value: is 200; expected a number from 0.001 to 179.9 degrees"},
+      {"scene.camera.position", R"([{"frame": 0, "value": [1, 2]}])",
+       "keys/0/value: is a list of 2 items; expected a list of 3 items, each a number from -10000000 to 10000000 length units"},
+      {"scene.camera.position", R"([{"frame": 0, "value": 1}])", "keys/0/value: is a list of 1 item; expected a list of 3 items"},
+      {"scene.camera.position", R"([{"frame": 0, "value": [1, 2, 3]}, {"frame": 1, "value": [1, 2]}])",
+       "keys/1/value: has 2 numbers, and the first key has 3; expected as many in each key"},
+      {"scene.camera.position", R"([{"frame": 0, "value": "here"}])",
+       "keys/0/value: is the string 'here'; expected a list of 1 to 100 items, each a number"}};
+  for (const auto& [path, list, says] : keys) expect_refused(fmt::format(R"({{"path": "{}", "keys": {}}})", path, list), at + says);
+  expect_refused(R"({"path": "seed"})", "a.json#/animation/tracks/0: has no 'keys'; this key is required");
+  expect_refused(R"({"path": "seed", )" + key + R"(}, {"path": "seed", )" + key + "}",
+                 "a.json#/animation/tracks/1/path: 'seed' has a track already, 'seed'; expected one track for a field");
+  expect_refused(R"({"path": "scene.camera.position", "keys": [{"frame": 0, "value": [1, 2, 3]}]}, {"path": "scene.camera.position.1", )" +
+                     key + "}",
+                 "a.json#/animation/tracks/1/path: 'scene.camera.position.1' has a track already, 'scene.camera.position'; expected one "
+                 "track for a field");
   for (const char* frames : {"0", "10001", "-3", "2.5", "1e9"})
     EXPECT_THAT(refusal_of([&] { read(with(std::string(R"({"frames": )") + frames + "}")); }),
-                testing::AllOf(testing::StartsWith("a.json#/animation/frames: is "),
-                               testing::HasSubstr("expected a whole number from 1 to 10000")));
+                AllOf(StartsWith("a.json#/animation/frames: is "), HasSubstr("expected a whole number from 1 to 10000")));
   EXPECT_THAT(refusal_of([&] { read(with(R"({"fps": 0})")); }),
-              testing::StartsWith("a.json#/animation/fps: is 0; expected a number from 0.1 to 1000"));
+              StartsWith("a.json#/animation/fps: is 0; expected a number from 0.1 to 1000"));
   EXPECT_THAT(refusal_of([&] { read(with("{}"), {"reference=a.exr"}); }),
-              testing::StartsWith("--set reference=a.exr: is one picture for all frames"));
+              StartsWith("--set reference=a.exr: is one picture for all frames"));
 }
 
 // The light turns over by way of no direction at all, half way: frame 5 of 11.

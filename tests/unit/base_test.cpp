@@ -2,13 +2,12 @@
 // Small parts of base/ and preset/: counts in words, numbers as people type them, places and how they read (RFC 6901), which field an
 // error is about, and the memory that a run is refused for.
 #include "base/counted.h"
-#include "base/error.h"
 #include "base/place.h"
 #include "cli/numbers.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "run/run.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 #include <nlohmann/json.hpp>
 
@@ -143,12 +142,7 @@ constexpr std::uint64_t gib = std::uint64_t{1} << 30;
 
 compute::DeviceInfo device(const char* type, std::uint64_t memory_bytes, std::uint64_t max_buffer_bytes)
 {
-  compute::DeviceInfo info;
-  info.name = "abacus";
-  info.type = type;
-  info.memory_bytes = memory_bytes;
-  info.max_buffer_bytes = max_buffer_bytes;
-  return info;
+  return {.name = "abacus", .type = type, .memory_bytes = memory_bytes, .max_buffer_bytes = max_buffer_bytes};
 }
 
 /// 16384 x 16384 pixels with two layers: two films of 6 GiB, of one image each, and 48 GiB on the host.

@@ -3,7 +3,7 @@
 // curves: sorting the wavelengths by n saves the clusters that it saves in the thesis (section 4.1.1: 202 and 204 sorted, 247 not sorted).
 #include "optics/dispersion.h"
 #include "spectral/clusters/clusters.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::clusters_test {
 
@@ -71,8 +71,6 @@ void expect_sound(const Spectrum& n, const Clustering& clustering)
   EXPECT_EQ(all, each);
 }
 
-// ---------------------------------------------------------------------------------------------------------------- figures
-
 TEST(Clusters, TotalOfNsf66)
 {
   const Spectrum n = glass("N-SF66");
@@ -107,8 +105,6 @@ TEST(Clusters, PatchesAgreeWithTheExactIntegral)
   EXPECT_LT(std::fabs(patch_sum / sum - 1), 5e-6);
 }
 
-// -------------------------------------------------------------------------------------------------------------- integrals
-
 TEST(Clusters, RefractionIntegralAboveAtAndBelowOne)
 {
   EXPECT_NEAR(refraction_integral_deg2(1), 89 * 89 / 2.0, 1e-9); // theta2 = theta1
@@ -134,8 +130,6 @@ TEST(Clusters, MixedDerivativeOfAppendixA)
       EXPECT_NEAR(measured, derived, 1e-6) << l << " " << theta;
     }
 }
-
-// ------------------------------------------------------------------------------------------------------------- any curve
 
 /// The fewest contiguous groups by dynamic programming over all divisions.
 std::size_t fewest(const std::vector<double>& theta, double h)
@@ -248,15 +242,13 @@ TEST(Clusters, BadInputIsRefused)
   };
   const Spectrum good = made([](double) { return 1.5; });
   for (double threshold : {0.0, -1.0, 90.0, static_cast<double>(NAN), static_cast<double>(INFINITY)})
-    EXPECT_THAT(error_of(good, threshold), testing::HasSubstr("expected above 0 and below 90"));
+    EXPECT_THAT(error_of(good, threshold), HasSubstr("expected above 0 and below 90"));
   for (double value : {0.0, -1.5, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
     Spectrum bad = good;
     bad[20] = value;
-    EXPECT_THAT(error_of(bad, 0.05), testing::HasSubstr("at 400 nm; expected a number above 0"));
+    EXPECT_THAT(error_of(bad, 0.05), HasSubstr("at 400 nm; expected a number above 0"));
   }
 }
-
-// ---------------------------------------------------------------------------------------------------- common refinement
 
 TEST(Clusters, CommonRefinementKeepsTogetherWhatIsTogetherEverywhere)
 {

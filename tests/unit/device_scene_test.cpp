@@ -3,15 +3,8 @@
 // and mirrors take alike; and the plan's reasons.
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "plan/plan.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/clusters/clusters.h"
-#include "spectral/engine.h"
-#include "spectral/tables/run_tables.h"
-#include "tests/support/errors.h"
-#include "tests/support/presets.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/plans.h"
 #include "tracing/scales.h"
 #include "tracing/targets.h"
 #include "tracing/wavelength_tables.h"
@@ -28,8 +21,7 @@ preset::Preset scene_with(const preset::Shape& shape, const preset::Material& ma
   p.scene.materials["thing"] = material;
   p.scene.materials["white"] = white(0.5);
   p.scene.objects = {object("thing", shape, "thing"), object("floor", quad(10, 10), "white", at({0, -2, 0}))};
-  preset::Light light;
-  light.position = {0, 5, 0};
+  preset::Light light{.position = {0, 5, 0}};
   p.scene.lights = {light};
   spectral::settings(p).direct = true;
   return p;
@@ -65,8 +57,7 @@ TEST(Targets, ABallIsOneAndARodIsMany)
   EXPECT_EQ(tracing::caustic_targets(round).size(), 1u);
   expect_enclosed(round, tracing::caustic_targets(round));
 
-  preset::Shape rod;
-  rod.type = preset::Shape::Type::sphere;
+  preset::Shape rod{.type = preset::Shape::Type::sphere};
   preset::Preset p = scene_with(rod, glass(1.5));
   p.scene.objects[0].transform.scale = {1, 8, 1};
   const scene::Scene scene = scene::load_scene(p);
@@ -90,12 +81,6 @@ TEST(Targets, TheShadowOfSpheresInAClosedForm)
     mean += (2 * M_PI - 2 * std::acos(d / 2) + d / 2 * std::sqrt(4 - d * d)) / steps;
   }
   EXPECT_NEAR(tracing::mean_shadow({{{0, 0, -1}, 1}, {{0, 0, 1}, 1}}) / mean, 1, 0.02);
-}
-
-spectral::RunTables tables_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {});
 }
 
 TEST(WavelengthTables, AddUpToTheWholeSpectrum)
@@ -154,25 +139,18 @@ TEST(RunTables, RefuseMoreMediaThanAPathCanCarry)
   EXPECT_EQ(tables_of(p).camera.inside.count, MEDIA_DEPTH);
   p.scene.objects.push_back(object("", preset::Shape{}, "thing"));
   const auto refusal = [&p] { return refusal_of([&p] { tables_of(p); }); };
-  EXPECT_THAT(refusal(), testing::StartsWith("p.json#/scene/camera/position: is inside 9 dielectric objects; expected at most 8"));
+  EXPECT_THAT(refusal(), StartsWith("p.json#/scene/camera/position: is inside 9 dielectric objects; expected at most 8"));
   p.scene.camera.position = {0, 0, 20};
   p.scene.lights[0].position = {0, 0, 0.1};
-  EXPECT_THAT(refusal(), testing::StartsWith("p.json#/scene/lights/0/position: is inside 9 dielectric objects"));
+  EXPECT_THAT(refusal(), StartsWith("p.json#/scene/lights/0/position: is inside 9 dielectric objects"));
 }
 
 TEST(EyePaths, AreAThirdOfThePhotonsWhereThePictureShowsGlass)
 {
-  const auto paths = [](const preset::Preset& p) {
-    const scene::Scene scene = scene::load_scene(p);
-    return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {}).eye_paths;
-  };
-  preset::Shape ball;
-  ball.radius = 1;
+  const auto paths = [](const preset::Preset& p) { return tables_of(p).eye_paths; };
+  preset::Shape ball{.radius = 1};
   preset::Preset p = scene_with(ball, glass(1.5));
-  p.scene.camera.position = {0, 0, 4};
-  p.scene.camera.target = {0, 0, 0};
-  p.scene.camera.fov_deg = 90;
-  p.scene.camera.resolution = {128, 128};
+  p.scene.camera = {.position = {0, 0, 4}, .target = {0, 0, 0}, .fov_deg = 90, .resolution = {128, 128}};
   spectral::settings(p).photons_per_pass = 1 << 17;
   // Its outline is a disc of radius 1 / sqrt(4^2 - 1) in a square of side 2.
   const double share = M_PI / 15 / 4;
@@ -194,12 +172,6 @@ bool planned_to_run(const plan::Plan& plan, const std::string& name, std::string
     }
   ADD_FAILURE() << "no pass " << name;
   return false;
-}
-
-plan::Plan plan_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
 }
 
 TEST(SpectralPlan, LeavesOutWhatASceneDoesNotNeedAndSaysWhy)
@@ -229,18 +201,18 @@ TEST(SpectralPlan, SaysWhenAPassNeedsMorePhotons)
   preset::Preset p = scene_with({}, glass(1.5));
   spectral::settings(p).method = spectral::Settings::Method::brute_force;
   spectral::settings(p).photons_per_pass = 1;
-  EXPECT_THAT(plan_of(p).notes, testing::Contains(testing::HasSubstr("raised from 1 to 401")));
+  EXPECT_THAT(plan_of(p).notes, Contains(HasSubstr("raised from 1 to 401")));
 }
 
 TEST(SpectralPlan, SaysThatStepsDoNothingWithoutBruteForce)
 {
   preset::Preset p = scene_with({}, glass(1.5));
-  EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
+  EXPECT_THAT(plan_of(p).notes, IsEmpty());
   spectral::settings(p).step_nm = 4;
   EXPECT_THAT(plan_of(p).notes,
-              testing::ElementsAre("spectral.step_nm: 4 does nothing here: spectral.method is optimal, and only brute_force has steps"));
+              ElementsAre("spectral.step_nm: 4 does nothing here: spectral.method is optimal, and only brute_force has steps"));
   spectral::settings(p).method = spectral::Settings::Method::brute_force;
-  EXPECT_THAT(plan_of(p).notes, testing::IsEmpty());
+  EXPECT_THAT(plan_of(p).notes, IsEmpty());
 }
 
 TEST(ExactCdf, IsInProportion)
@@ -310,11 +282,10 @@ TEST(Losses, TheLargestDifferenceIsWhatASearchFinds)
 }
 
 /// A ball of glass, 0.1 m across, from clear at 380 nm to opaque at 780 nm, or a mirror from white to black.
-scene::Scene dyed_scene(const std::filesystem::path& folder, bool mirror)
+scene::Scene dyed_scene(const fs::path& folder, bool mirror)
 {
   preset::Preset p = test::empty_preset(4);
-  preset::Shape ball;
-  ball.radius = 0.05;
+  preset::Shape ball{.radius = 0.05};
   preset::Material& material = p.scene.materials["dye"] = mirror ? check::mirror(0.5) : test::glass(1.5);
   if (mirror) {
     material.reflectance.type = preset::Reflectance::Type::table;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Difference pictures: each map on values computed by hand, the colours, where they end, and the numbers drawn beside them.
 #include "measure/difference.h"
-#include "tests/support/errors.h"
 #include "tests/support/pictures.h"
 
 namespace nephroid::difference_test {

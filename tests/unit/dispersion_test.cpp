@@ -2,7 +2,7 @@
 // Dispersion against published figures, hand-computed values of every formula, and the oddities of the refractiveindex.info database.
 // Malformed files: each answers with one line that names the file, the line where it can, and what is expected.
 #include "optics/dispersion.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::dispersion_test {
 
@@ -11,8 +11,8 @@ using Rows = std::vector<std::array<double, 2>>;
 using nephroid::Error;
 using nephroid::optics::parse_dispersion;
 
-const std::filesystem::path materials = std::filesystem::path(NEPHROID_SOURCE_DIR) / "presets/materials";
-const std::filesystem::path more = std::filesystem::path(NEPHROID_SOURCE_DIR) / "tests/data/dispersion";
+const fs::path materials = fs::path(NEPHROID_SOURCE_DIR) / "presets/materials";
+const fs::path more = fs::path(NEPHROID_SOURCE_DIR) / "tests/data/dispersion";
 
 constexpr double line_F = 486.1327, line_d = 587.5618, line_C = 656.2725;
 
@@ -99,8 +99,7 @@ TEST(Dispersion, AFormulaWithoutAFiniteValueAnswersNothing)
   const IndexSample below = curve.sample(445); // just below the pole at 450 nm: n^2 is far below 0
   EXPECT_FALSE(below.n);
   EXPECT_TRUE(below.extrapolated);
-  EXPECT_THAT(refusal_of([&] { sample_n(curve, Outside::automatic); }),
-              testing::AllOf(testing::HasSubstr("gives no number at"), testing::HasSubstr("500..1000 nm")));
+  EXPECT_THAT(refusal_of([&] { sample_n(curve, Outside::automatic); }), AllOf(HasSubstr("gives no number at"), HasSubstr("500..1000 nm")));
   EXPECT_NEAR(sample_n(curve, Outside::hold)[0], n_at(curve, 500), 1e-15);
 }
 
@@ -111,7 +110,7 @@ TEST(Dispersion, RangeEndsCountAsInside)
   for (double nm : {486.0, 589.31}) EXPECT_TRUE(curve.sample(nm).extrapolated) << nm;
   EXPECT_NO_THROW(curve.sample(589.3, Outside::refuse));
   EXPECT_THAT(refusal_of([&] { curve.sample(600, Outside::refuse); }),
-              testing::HasSubstr("test.yml: test has no n at 600 nm; expected a wavelength in its range 486.1..589.3 nm"));
+              HasSubstr("test.yml: test has no n at 600 nm; expected a wavelength in its range 486.1..589.3 nm"));
 }
 
 TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
@@ -129,8 +128,8 @@ TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
   EXPECT_EQ(outside_note(glass, Outside::automatic), "N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)");
   EXPECT_EQ(outside_note(glass, Outside::hold), "N-SF66: n is held below 390 nm (data: 390..2500 nm)");
   EXPECT_EQ(outside_note(load_dispersion(materials / "N-BK7.yml"), Outside::automatic), "");
-  EXPECT_THAT(refusal_of([&] { sample_n(glass, Outside::refuse); }), testing::HasSubstr("no n at 380 nm"));
-  EXPECT_THAT(refusal_of([&] { sample_k(glass, Outside::refuse); }), testing::HasSubstr("no k at 380 nm"));
+  EXPECT_THAT(refusal_of([&] { sample_n(glass, Outside::refuse); }), HasSubstr("no n at 380 nm"));
+  EXPECT_THAT(refusal_of([&] { sample_k(glass, Outside::refuse); }), HasSubstr("no k at 380 nm"));
 
   const DispersionCurve table = tabulated(Rows{{500, 1.6}, {600, 1.5}});
   for (Outside outside : {Outside::automatic, Outside::hold, Outside::extrapolate}) {
@@ -149,7 +148,7 @@ TEST(Dispersion, DatabaseTablesAreReadAsTheyAre)
   EXPECT_NEAR(n_at(odd, 550), 0.2, 1e-12);
   EXPECT_NEAR(*odd.sample(700).k, -0.01, 1e-15);
   EXPECT_EQ(sample_k(odd, Outside::automatic)[700 - first_nm], 0); // but light does not gain from it
-  EXPECT_THAT(refusal_of([&] { sample_n(odd, Outside::automatic); }), testing::HasSubstr("n above 0"));
+  EXPECT_THAT(refusal_of([&] { sample_n(odd, Outside::automatic); }), HasSubstr("n above 0"));
 
   const DispersionCurve single = from_yaml("  - type: tabulated n\n    data: |\n        0.5893 1.33\n");
   EXPECT_EQ(n_at(single, 589.3), 1.33);
@@ -164,7 +163,7 @@ TEST(Dispersion, FilesWithOneOfNAndKOrWithBothApart)
   EXPECT_FALSE(k_only.sample(500).n);
   EXPECT_NEAR(*k_only.sample(500).k, 0.2, 1e-15);
   EXPECT_EQ(k_only.range_nm(), (std::array{400.0, 600.0}));
-  EXPECT_THAT(refusal_of([&] { sample_n(k_only, Outside::automatic); }), testing::HasSubstr("no index of refraction n, only k"));
+  EXPECT_THAT(refusal_of([&] { sample_n(k_only, Outside::automatic); }), HasSubstr("no index of refraction n, only k"));
 
   const DispersionCurve both = from_yaml("  - type: tabulated k\n    data: |\n        0.4 0.1\n  - type: constant\n    value: 1.7\n");
   EXPECT_EQ(n_at(both, 500), 1.7);
@@ -237,12 +236,11 @@ TEST(Dispersion, ControlPointsAreJoinedSmoothly)
 
 TEST(Dispersion, BadCurvesAreRefused)
 {
-  using testing::HasSubstr;
   // n^2 = 1 + l^2 / (l^2 - 0.36): negative from 424 nm to the resonance at 600 nm, inside the range.
   const std::array<double, 1> strength{1}, resonance{0.36};
   for (const Outside outside : {Outside::automatic, Outside::hold})
     EXPECT_THAT(refusal_of([&] { sample_n(sellmeier(strength, resonance), outside); }),
-                testing::AllOf(HasSubstr("gives no number at 425 nm: n^2 is negative or infinite there"), testing::Not(HasSubstr("hold"))));
+                AllOf(HasSubstr("gives no number at 425 nm: n^2 is negative or infinite there"), Not(HasSubstr("hold"))));
   const double two[] = {1, 2}, one[] = {1}, bad[] = {1, NAN};
   EXPECT_THAT(refusal_of([&] { sellmeier(two, one); }), HasSubstr("2 values of b and 1 of c"));
   EXPECT_THAT(refusal_of([&] { sellmeier({}, {}); }), HasSubstr("no coefficients"));
@@ -264,9 +262,7 @@ TEST(Dispersion, BadCurvesAreRefused)
 }
 
 struct Malformed {
-  const char* name;
-  const char* yaml;
-  const char* line;
+  std::string name, yaml, line;
 };
 /// Names the case where GoogleTest prints one that failed.
 void PrintTo(const Malformed& file, std::ostream* out) { *out << file.name; }
@@ -281,6 +277,26 @@ TEST_P(MalformedFile, IsRefusedWithOneLine)
 constexpr const char* no_map = "f.yml: this is no refractiveindex.info file; expected a YAML map with a DATA list";
 constexpr const char* no_list = "f.yml:1: DATA is not a list with entries; expected a list of \"- type: ...\" entries";
 
+std::string formula(int number, const std::string& range, const std::string& coefficients)
+{
+  return fmt::format("DATA:\n  - type: formula {}\n    wavelength_range: {}\n    coefficients: {}\n", number, range, coefficients);
+}
+
+std::string no_number(int line, const std::string& text)
+{
+  return fmt::format("f.yml:{}: \"{}\" is no number; expected a finite number such as 1.5168 or 2.86E-06", line, text);
+}
+
+std::string no_range(const std::string& text)
+{
+  return "f.yml:3: the wavelength range is \"" + text + "\"; expected two numbers in micrometres, the lower first, above 0";
+}
+
+std::string no_type(const std::string& text)
+{
+  return "f.yml:2: the type is \"" + text + "\"; expected formula 1 to 9, tabulated n, nk or k, or constant";
+}
+
 const Malformed cases[] = {
     {"Empty", "", no_map},
     {"Blank", " \n\n", no_map},
@@ -294,42 +310,27 @@ const Malformed cases[] = {
     {"EntryIsText", "DATA:\n  - 1.5\n", "f.yml:2: the entry is not a map; expected \"- type: ...\" and its data"},
     {"NoType", "DATA:\n  - data: 1\n", "f.yml:2: the entry has no \"type\""},
     {"TypeIsList", "DATA:\n  - type: [1]\n", "f.yml:2: \"type\" is not text; expected numbers separated by blanks"},
-    {"UnknownType", "DATA:\n  - type: tabulated\n",
-     "f.yml:2: the type is \"tabulated\"; expected formula 1 to 9, tabulated n, nk or k, or constant; did you mean \"tabulated n\"?"},
-    {"FormulaZero", "DATA:\n  - type: formula 0\n",
-     "f.yml:2: the type is \"formula 0\"; expected formula 1 to 9, tabulated n, nk or k, or constant; did you mean \"formula 1\"?"},
-    {"FormulaTen", "DATA:\n  - type: formula 10\n",
-     "f.yml:2: the type is \"formula 10\"; expected formula 1 to 9, tabulated n, nk or k, or constant; did you mean \"formula 1\"?"},
-    {"Nonlinear", "DATA:\n  - type: tabulated n2\n",
-     "f.yml:2: the type is \"tabulated n2\"; expected formula 1 to 9, tabulated n, nk or k, or constant; did you mean \"tabulated nk\"?"},
+    {"UnknownType", "DATA:\n  - type: tabulated\n", no_type("tabulated") + "; did you mean \"tabulated n\"?"},
+    {"FormulaZero", "DATA:\n  - type: formula 0\n", no_type("formula 0") + "; did you mean \"formula 1\"?"},
+    {"FormulaTen", "DATA:\n  - type: formula 10\n", no_type("formula 10") + "; did you mean \"formula 1\"?"},
+    {"Nonlinear", "DATA:\n  - type: tabulated n2\n", no_type("tabulated n2") + "; did you mean \"tabulated nk\"?"},
     {"FormulaWithoutRange", "DATA:\n  - type: formula 1\n    coefficients: 0 1 1\n", "f.yml:2: the entry has no \"wavelength_range\""},
     {"FormulaWithoutCoefficients", "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 2.5\n",
      "f.yml:2: the entry has no \"coefficients\""},
-    {"RangeOfOne", "DATA:\n  - type: formula 1\n    wavelength_range: 0.3\n    coefficients: 0\n",
-     "f.yml:3: the wavelength range is \"0.3\"; expected two numbers in micrometres, the lower first, above 0"},
-    {"RangeTurned", "DATA:\n  - type: formula 1\n    wavelength_range: 2.5 0.3\n    coefficients: 0\n",
-     "f.yml:3: the wavelength range is \"2.5 0.3\"; expected two numbers in micrometres, the lower first, above 0"},
-    {"RangeOfWords", "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 to 2.5\n    coefficients: 0\n",
-     "f.yml:3: \"to\" is no number; expected a finite number such as 1.5168 or 2.86E-06"},
-    {"RangeFromZero", "DATA:\n  - type: formula 1\n    wavelength_range: 0 2.5\n    coefficients: 0\n",
-     "f.yml:3: the wavelength range is \"0 2.5\"; expected two numbers in micrometres, the lower first, above 0"},
-    {"NoCoefficients", "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 2.5\n    coefficients: \"\"\n",
-     "f.yml:4: there are no coefficients; expected at least one"},
-    {"CoefficientIsNoNumber", "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 2.5\n    coefficients: 0 1,5 0.1\n",
-     "f.yml:4: \"1,5\" is no number; expected a finite number such as 1.5168 or 2.86E-06"},
-    {"CoefficientIsNan", "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 2.5\n    coefficients: 0 nan\n",
-     "f.yml:4: \"nan\" is no number; expected a finite number such as 1.5168 or 2.86E-06"},
-    {"CoefficientOverflows", "DATA:\n  - type: formula 1\n    wavelength_range: 0.3 2.5\n    coefficients: 0 1e999\n",
-     "f.yml:4: \"1e999\" is no number; expected a finite number such as 1.5168 or 2.86E-06"},
-    {"TooManyCoefficients", "DATA:\n  - type: formula 8\n    wavelength_range: 0.3 2.5\n    coefficients: 1 2 3 4 5\n",
-     "f.yml:4: formula 8 has 5 coefficients; expected at most 4"},
+    {"RangeOfOne", formula(1, "0.3", "0"), no_range("0.3")},
+    {"RangeTurned", formula(1, "2.5 0.3", "0"), no_range("2.5 0.3")},
+    {"RangeOfWords", formula(1, "0.3 to 2.5", "0"), no_number(3, "to")},
+    {"RangeFromZero", formula(1, "0 2.5", "0"), no_range("0 2.5")},
+    {"NoCoefficients", formula(1, "0.3 2.5", "\"\""), "f.yml:4: there are no coefficients; expected at least one"},
+    {"CoefficientIsNoNumber", formula(1, "0.3 2.5", "0 1,5 0.1"), no_number(4, "1,5")},
+    {"CoefficientIsNan", formula(1, "0.3 2.5", "0 nan"), no_number(4, "nan")},
+    {"CoefficientOverflows", formula(1, "0.3 2.5", "0 1e999"), no_number(4, "1e999")},
+    {"TooManyCoefficients", formula(8, "0.3 2.5", "1 2 3 4 5"), "f.yml:4: formula 8 has 5 coefficients; expected at most 4"},
     {"TableWithoutData", "DATA:\n  - type: tabulated n\n", "f.yml:2: the entry has no \"data\""},
     {"TypeOfManyLetters", "DATA:\n  - type: fffffffffffffffffffffffffffffffffffffffffffffffffffffffffffff\n",
-     "f.yml:2: the type is \"ffffffffffffffffffffffffffffffffffffffff\"; expected formula 1 to 9, tabulated n, nk or k, or constant"},
-    {"RangeOfManyNumbers",
-     "DATA:\n  - type: formula 1\n    wavelength_range: 1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9\n    coefficients: 1\n",
-     "f.yml:3: the wavelength range is \"1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 \"; expected two numbers in micrometres, the lower first, "
-     "above 0"},
+     no_type("ffffffffffffffffffffffffffffffffffffffff")},
+    {"RangeOfManyNumbers", formula(1, "1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9", "1"),
+     no_range("1 2 3 4 5 6 7 8 9 1 2 3 4 5 6 7 8 9 1 2 ")},
     {"TableIsEmpty", "DATA:\n  - type: tabulated n\n    data: \"\"\n", "f.yml:3: the table is empty; expected at least one row of numbers"},
     {"TableOfBlanks", "DATA:\n  - type: tabulated n\n    data: |\n\n\n",
      "f.yml:3: the table is empty; expected at least one row of numbers"},
@@ -339,12 +340,9 @@ const Malformed cases[] = {
      "f.yml:5: the row has 2 numbers; expected 3: the wavelength in micrometres, n and k"},
     {"RowTooLong", "DATA:\n  - type: tabulated n\n    data: |\n        0.5 1.5 0.1\n",
      "f.yml:4: the row has 3 numbers; expected 2: the wavelength in micrometres and the value"},
-    {"RowAfterABlankOne", "DATA:\n  - type: tabulated k\n    data: |\n        0.5 1.5\n\n        0.6 x\n",
-     "f.yml:6: \"x\" is no number; expected a finite number such as 1.5168 or 2.86E-06"},
-    {"RowWithUnit", "DATA:\n  - type: tabulated n\n    data: |\n        500nm 1.5\n",
-     "f.yml:4: \"500nm\" is no number; expected a finite number such as 1.5168 or 2.86E-06"},
-    {"RowIsInfinite", "DATA:\n  - type: tabulated n\n    data: |\n        0.5 inf\n",
-     "f.yml:4: \"inf\" is no number; expected a finite number such as 1.5168 or 2.86E-06"},
+    {"RowAfterABlankOne", "DATA:\n  - type: tabulated k\n    data: |\n        0.5 1.5\n\n        0.6 x\n", no_number(6, "x")},
+    {"RowWithUnit", "DATA:\n  - type: tabulated n\n    data: |\n        500nm 1.5\n", no_number(4, "500nm")},
+    {"RowIsInfinite", "DATA:\n  - type: tabulated n\n    data: |\n        0.5 inf\n", no_number(4, "inf")},
     {"NegativeWavelength", "DATA:\n  - type: tabulated n\n    data: |\n        -0.5 1.5\n",
      "f.yml:4: the wavelength is -0.5 um; expected a wavelength above 0"},
     {"ConstantWithoutValue", "DATA:\n  - type: constant\n", "f.yml:2: the entry has no \"value\""},

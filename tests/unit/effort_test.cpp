@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the photons of a pass are dealt to lights and clusters: after spectral.effort, by measured variance, and as numbered emitters.
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/effort/emitters.h"
-#include "spectral/effort/importance.h"
-#include "spectral/engine.h"
-#include "spectral/tables/run_tables.h"
-#include "tests/support/errors.h"
-#include "tests/support/presets.h"
+#include "tests/support/plans.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::effort_test {
@@ -30,18 +24,11 @@ preset::Preset lit_ball(Effort effort)
   dispersive.dispersion.coefficients = {1.6, 0.02};
   p.scene.materials = {{"glass", dispersive}, {"floor", white(0.7)}};
   p.scene.objects = {object("ball", check::ball(0.5), "glass"), object("floor", quad(10, 10), "floor", at({0, -1, 0}))};
-  preset::Light light;
-  light.position = {0, 3, 0};
+  preset::Light light{.position = {0, 3, 0}};
   p.scene.lights = {light, light};
   p.scene.lights[1].spectrum.illuminant = "A";
   p.scene.lights[1].power_w = 3;
   return p;
-}
-
-RunTables tables_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {});
 }
 
 /// [light][cluster] photons of a pass.
@@ -83,7 +70,7 @@ TEST(DealtEffort, EqualGivesEveryClusterTheSame)
 {
   const RunTables tables = tables_of(lit_ball(Effort::equal));
   ASSERT_GT(tables.wavelengths.clusters.size(), 5u);
-  EXPECT_THAT(tables.importance, testing::Each(1));
+  EXPECT_THAT(tables.importance, Each(1));
   expect_clusters_in_proportion(tables, tables.importance);
 }
 
@@ -94,9 +81,7 @@ TEST(DealtEffort, FollowsTheImportanceOfClusters)
       preset::Preset p = lit_ball(effort);
       spectral::settings(p).importance.cluster = which;
       const RunTables tables = tables_of(p);
-      const scene::Scene scene = scene::load_scene(p);
-      const optics::Spectrum u = spectral::wavelength_importance(spectral::settings(p), scene, scene::build_bvh(scene.geometry)).u;
-      EXPECT_EQ(tables.importance, spectral::cluster_importance(u, tables.wavelengths.clusters, which));
+      EXPECT_EQ(tables.importance, spectral::cluster_importance(importance_of(p).u, tables.wavelengths.clusters, which));
       EXPECT_LT(*std::min_element(tables.importance.begin(), tables.importance.end()), 0.9);
       expect_clusters_in_proportion(tables, tables.importance);
     }
@@ -138,21 +123,20 @@ TEST(DealtEffort, IsNotAskedForWhereThereIsNoCaustic)
 {
   preset::Preset p = lit_ball(Effort::importance);
   p.scene.objects.pop_back(); // the floor
-  EXPECT_THAT(tables_of(p).importance, testing::Each(1));
+  EXPECT_THAT(tables_of(p).importance, Each(1));
   p = lit_ball(Effort::importance);
   p.scene.lights.clear();
-  EXPECT_THAT(tables_of(p).importance, testing::Each(1));
+  EXPECT_THAT(tables_of(p).importance, Each(1));
   p = lit_ball(Effort::importance);
   p.scene.materials["floor"].reflectance.value = 0;
-  EXPECT_THAT(refusal_of([&] { tables_of(p); }), testing::StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every"));
+  EXPECT_THAT(refusal_of([&] { tables_of(p); }), StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every"));
 }
 
 TEST(DealtEffort, IsInThePlan)
 {
   const auto reason_of = [](Effort effort, bool runs) {
-    const preset::Preset p = lit_ball(effort);
-    const scene::Scene scene = scene::load_scene(p);
-    for (const plan::Pass& pass : spectral::make_plan(p, scene, scene::build_bvh(scene.geometry)).passes)
+    const plan::Plan plan = plan_of(lit_ball(effort));
+    for (const plan::Pass& pass : plan.passes)
       if (pass.name == "importance") {
         EXPECT_EQ(pass.runs, runs);
         return pass.reason;
@@ -160,11 +144,11 @@ TEST(DealtEffort, IsInThePlan)
     return std::string();
   };
   EXPECT_THAT(reason_of(Effort::importance, true), testing::MatchesRegex(".*surroundings \\(4.15\\): [0-9]+ % of the iterations.*"));
-  EXPECT_THAT(reason_of(Effort::radziszewski, true), testing::HasSubstr("cosh"));
-  EXPECT_THAT(reason_of(Effort::equal, false), testing::HasSubstr("spectral.effort is equal"));
-  EXPECT_THAT(reason_of(Effort::power, false), testing::HasSubstr("what the eye makes of each cluster's light"));
-  EXPECT_THAT(reason_of(Effort::automatic, false), testing::HasSubstr("while that gains enough"));
-  EXPECT_THAT(reason_of(Effort::variance, false), testing::HasSubstr("variance that is measured"));
+  EXPECT_THAT(reason_of(Effort::radziszewski, true), HasSubstr("cosh"));
+  EXPECT_THAT(reason_of(Effort::equal, false), HasSubstr("spectral.effort is equal"));
+  EXPECT_THAT(reason_of(Effort::power, false), HasSubstr("what the eye makes of each cluster's light"));
+  EXPECT_THAT(reason_of(Effort::automatic, false), HasSubstr("while that gains enough"));
+  EXPECT_THAT(reason_of(Effort::variance, false), HasSubstr("variance that is measured"));
 }
 
 TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
@@ -211,8 +195,7 @@ TEST(Emitters, AreNoneInTheDark)
 
 TEST(Emitters, SequencesAreLongerThan32Bits)
 {
-  shared::DeviceEmitter emitter{};
-  emitter.sequence_start = 0xfffffff0u;
+  shared::DeviceEmitter emitter{.sequence_start = 0xfffffff0u};
   spectral::advance_sequence(emitter, 0x20);
   EXPECT_EQ(emitter.sequence_start, 0x10u);
   EXPECT_EQ(emitter.sequence_start_high, 1u);
@@ -225,8 +208,7 @@ std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts)
 {
   std::vector<shared::DeviceEmitter> all;
   for (const unsigned count : counts) {
-    shared::DeviceEmitter emitter{};
-    emitter.photon_count = count;
+    shared::DeviceEmitter emitter{.photon_count = count};
     all.push_back(emitter);
   }
   spectral::number_photons(all);

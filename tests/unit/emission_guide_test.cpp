@@ -39,13 +39,6 @@ std::vector<double> chances(const EmissionGuide& guide, std::size_t light = 0)
   return result;
 }
 
-double sum(const std::vector<double>& values)
-{
-  double total = 0;
-  for (const double value : values) total += value;
-  return total;
-}
-
 /// The moments of a pass of `photons` photons, of which one that is sent evenly adds f[cell] / photons, in `unit`s: those of a cell are
 /// photons * chance, and each adds f / (photons * chance * cells).
 std::vector<std::int64_t> moments_of(const std::vector<double>& f, const std::vector<double>& chance, double photons, double unit)
@@ -135,7 +128,7 @@ TEST(EmissionGuide, EveryCellKeepsAChance)
     guide.learn(moments, std::vector<double>{200000, 5}, std::exp2(deal));
     for (const std::size_t light : {0u, 1u}) {
       const std::vector<double> chance = chances(guide, light);
-      EXPECT_NEAR(sum(chance), 1, 1e-12);
+      EXPECT_NEAR(std::accumulate(chance.begin(), chance.end(), 0.0), 1, 1e-12);
       EXPECT_GT(*std::min_element(chance.begin(), chance.end()), 0.99 * dark_part * even);
     }
     for (const double value : chances(guide, 1)) EXPECT_NEAR(value, even, 4e-6 * even);
@@ -210,13 +203,8 @@ TEST(LayerCells, WhereThereAreTooManyEveryPixelKeepsTheOneItSeesMost)
 
 shared::DeviceCamera camera_along_minus_z(int pixels)
 {
-  shared::DeviceCamera camera{};
-  camera.right = {1, 0, 0, 0};
-  camera.up = {0, 1, 0, 0};
-  camera.forward = {0, 0, -1, 0};
-  camera.tan_x = camera.tan_y = 0.5f;
-  camera.width = camera.height = pixels;
-  return camera;
+  return {
+      .right = {1, 0, 0, 0}, .up = {0, 1, 0, 0}, .forward = {0, 0, -1, 0}, .tan_x = 0.5f, .tan_y = 0.5f, .width = pixels, .height = pixels};
 }
 
 TEST(BentCells, CountPixelsThatMaySeeASphere)
@@ -252,8 +240,7 @@ TEST(LayerEmitters, HalfOfThePhotonsGoEvenlyHalfByThePresentLight)
 
 TEST(LayerWeights, AddUpToTheColourOfTheReflectorUnderTheLight)
 {
-  tracing::WavelengthTables tables;
-  tables.reflector_count = 2;
+  tracing::WavelengthTables tables{.reflector_count = 2};
   tables.clusters.resize(3);
   for (int w = 0; w < optics::wavelength_count; ++w) tables.clusters[static_cast<std::size_t>(w * 7 % 3)].push_back(w);
   tables.reflectance.assign(2 * optics::wavelength_count, 1.0f);
@@ -285,18 +272,10 @@ preset::Preset ball_and_mirror(const preset::Vec3& eye)
   p.scene.materials["wall"];
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["glass"].type = preset::Material::Type::dielectric;
-  p.scene.objects = {test::shape_object("floor", preset::Shape::Type::quad, "wall"),
-                     test::shape_object("ball", preset::Shape::Type::sphere, "glass"),
-                     test::shape_object("mirror", preset::Shape::Type::quad, "mirror")};
-  p.scene.objects[0].transform.scale = {40, 1, 40};
-  p.scene.objects[1].shape->segments = 32;
-  p.scene.objects[1].transform.translate = {0.3, 0.6, 0};
-  p.scene.objects[2].transform.scale = {3, 1, 9};
-  p.scene.objects[2].transform.rotate_deg = {20, 30, -70};
-  p.scene.objects[2].transform.translate = {-3, 1.5, 0};
-  p.scene.camera.position = eye;
-  p.scene.camera.target = {0, 0.5, 0};
-  p.scene.camera.resolution = {width, height};
+  p.scene.objects = {shape_object("floor", preset::Shape::Type::quad, "wall", {.scale = {40, 1, 40}}),
+                     shape_object("ball", preset::Shape::Type::sphere, "glass", {.translate = {0.3, 0.6, 0}}),
+                     shape_object("mirror", preset::Shape::Type::quad, "mirror", {{3, 1, 9}, {20, 30, -70}, {-3, 1.5, 0}})};
+  p.scene.camera = {.position = eye, .target = {0, 0.5, 0}, .resolution = {width, height}};
   return p;
 }
 

@@ -3,8 +3,7 @@
 // with the same bits, and what is no whole history is refused at its line.
 #include "measure/history_file.h"
 #include "measure/run_curves.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace nephroid::error_curve_test {
 
@@ -24,8 +23,7 @@ Curve power_curve(double factor, double exponent, double first, double ratio, in
 TEST(RunCurves, leave_out_what_cannot_be_drawn)
 {
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  nephroid::job::History history;
-  history.columns = {"lab_mean", "psnr_db", "estimated_lab_mean"};
+  nephroid::job::History history{.columns = {"lab_mean", "psnr_db", "estimated_lab_mean"}};
   const double errors[] = {1, nan, infinity, 0, -1, 2, 1e300, 5e-324};
   for (int i = 0; i < 8; ++i) history.rows.push_back({static_cast<double>(i), 0, i, 0, {errors[i], errors[i]}});
   const RunCurves error = run_curves(history, "lab_mean", true), quality = run_curves(history, "psnr_db", false);
@@ -142,8 +140,7 @@ TEST(RoundLevels, are_one_two_five)
 
 job::History three_rows()
 {
-  job::History history;
-  history.columns = {"lab_mean", "psnr_db", "estimated_lab_mean"};
+  job::History history{.columns = {"lab_mean", "psnr_db", "estimated_lab_mean"}};
   history.rows = {{0.25, 0.5, 1, 262144, {1.5, 20.25, 1.25}},
                   {0.5, 1.125, 2, 524288, {1, std::nan(""), 0.75}},
                   {0.5, 1.25, 2, 524288, {0.5, std::numeric_limits<double>::infinity(), -0.0}}};
@@ -168,10 +165,10 @@ void expect_same(const job::History& a, const job::History& b)
   }
 }
 
-class HistoryFile : public ::testing::Test {
+class HistoryFile : public testing::Test {
 protected:
   test::TemporaryFolder temporary;
-  std::filesystem::path folder = temporary.path();
+  fs::path folder = temporary.path();
 
   job::History read(const std::string& text)
   {
@@ -197,8 +194,7 @@ TEST_F(HistoryFile, comes_back_as_it_was)
 {
   expect_same(read(measure::to_csv(three_rows())), three_rows());
   expect_same(read(measure::to_csv({})), {}); // of a run that measured nothing
-  job::History no_rows;
-  no_rows.columns = {"mse"};
+  job::History no_rows{.columns = {"mse"}};
   expect_same(read(measure::to_csv(no_rows)), no_rows);
 }
 
@@ -206,8 +202,7 @@ TEST_F(HistoryFile, comes_back_as_it_was)
 TEST_F(HistoryFile, keeps_every_bit)
 {
   std::mt19937_64 bits(7);
-  job::History history;
-  history.columns = {"a", "b", "c"};
+  job::History history{.columns = {"a", "b", "c"}};
   double clock = 0;
   for (int i = 0; i < 1000; ++i) {
     std::vector<double> errors(3);
@@ -276,7 +271,7 @@ TEST_F(HistoryFile, what_is_no_file_is_refused)
   EXPECT_THAT(test::refusal_of([&] { measure::read_history(folder / "none.csv"); }), HasSubstr("cannot be read"));
   EXPECT_THAT(test::refusal_of([&] { measure::read_history(folder); }), HasSubstr("it is a folder"));
   write_file_whole(folder / "huge.csv", "");
-  std::filesystem::resize_file(folder / "huge.csv", std::uintmax_t(1) << 40); // takes no room on the disk
+  fs::resize_file(folder / "huge.csv", std::uintmax_t(1) << 40); // takes no room on the disk
   EXPECT_THAT(test::refusal_of([&] { measure::read_history(folder / "huge.csv"); }), HasSubstr("has 1048576 MiB"));
 }
 

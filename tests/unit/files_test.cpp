@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files are read whole, written whole or not at all, and found where a preset's reader says they are; nearest names.
 #include "base/bytes.h"
-#include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "base/interrupts.h"
 #include "base/nearest.h"
-#include "tests/support/errors.h"
 #include "tests/support/process_state.h"
-#include "tests/support/temporary_folder.h"
 
 #include <sys/mount.h>
 #include <sys/stat.h>
@@ -203,7 +200,7 @@ TEST_F(Finder, SaysWhereItLookedAndForWhom)
 {
   const Error error = error_of([&] { FileFinder(folder / "beside").find("none.obj", "p.json#/scene/objects/0/mesh"); });
   EXPECT_EQ(error.exit_code(), 2);
-  EXPECT_THAT(error.line(), testing::StartsWith("p.json#/scene/objects/0/mesh: 'none.obj' not found; looked in "));
+  EXPECT_THAT(error.line(), StartsWith("p.json#/scene/objects/0/mesh: 'none.obj' not found; looked in "));
   for (const char* place : {"beside", "presets", "data/glmark2/models"}) EXPECT_THAT(error.line(), HasSubstr((folder / place).string()));
   EXPECT_THAT(error_of([&] { FileFinder().find("/no/such/file", "x"); }).line(), HasSubstr("there is no file '/no/such/file'"));
   EXPECT_THAT(error_of([&] { FileFinder().find("", "x"); }).line(), HasSubstr("empty"));

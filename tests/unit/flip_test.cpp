@@ -3,7 +3,6 @@
 #include "measure/flip.h"
 #include "measure/iw_ssim.h"
 #include "tests/support/pictures.h"
-#include "tests/support/test.h"
 
 namespace nephroid::flip_test {
 

@@ -8,9 +8,8 @@
 #include "run/import/import.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "tests/support/errors.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 #include <nlohmann/json.hpp>
 
@@ -92,7 +91,7 @@ TEST_F(GltfImport, ATriangleBecomesAnObjectWithAMeshOfItsOwn)
   EXPECT_EQ(p.unit, preset::Preset::Unit::m);
   const scene::Mesh mesh = scene::load_mesh(folder.path() / *object.mesh);
   EXPECT_EQ(mesh.triangles.size(), 1u);
-  EXPECT_THAT(mesh.positions, testing::UnorderedElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
+  EXPECT_THAT(mesh.positions, UnorderedElementsAre(glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("no camera"), HasSubstr("no lights")));
   EXPECT_THAT(made.summary(), HasSubstr("1 object, 1 mesh, 1 light; the file has no camera"));
 }
@@ -155,7 +154,7 @@ TEST_F(GltfImport, AShearedMeshIsWrittenAsItStands)
   const preset::Preset p = imported(json);
   EXPECT_EQ(p.scene.objects[0].transform, preset::Transform());
   EXPECT_THAT(scene::load_mesh(folder.path() / *p.scene.objects[0].mesh).positions,
-              testing::UnorderedElementsAre(glm::vec3(0, 0, 7), glm::vec3(1, 0, 7), glm::vec3(0.5f, 1, 7)));
+              UnorderedElementsAre(glm::vec3(0, 0, 7), glm::vec3(1, 0, 7), glm::vec3(0.5f, 1, 7)));
 }
 
 TEST_F(GltfImport, TheCameraLooksAlongMinusZ)
@@ -228,7 +227,7 @@ TEST_F(GltfImport, GlassBendsAsItsAbbeNumberSays)
   const Material glass = imported(json).scene.materials.at("wall");
   EXPECT_EQ(glass.type, Material::Type::dielectric);
   EXPECT_EQ(glass.dispersion.type, preset::Dispersion::Type::cauchy) << "white attenuation absorbs nothing";
-  EXPECT_THAT(made.notes, testing::Not(testing::Contains(HasSubstr("thin film"))));
+  EXPECT_THAT(made.notes, Not(Contains(HasSubstr("thin film"))));
 }
 
 TEST_F(GltfImport, GlassAbsorbsAsItsVolumeSays)
@@ -270,7 +269,7 @@ TEST_F(GltfImport, MetalIsAMirrorAndColoursAreReflectances)
   EXPECT_GT(mirror.reflectance.table.at(26)[1], 0.9) << "640 nm";
   json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 1;
   EXPECT_EQ(imported(json).scene.materials.at("wall").type, Material::Type::diffuse);
-  EXPECT_THAT(made.notes, testing::Contains(HasSubstr("rough metal")));
+  EXPECT_THAT(made.notes, Contains(HasSubstr("rough metal")));
   json["meshes"][0]["primitives"][0].erase("material");
   EXPECT_TRUE(imported(json).scene.materials.contains("plain"));
 }

@@ -88,29 +88,30 @@ std::set<std::string> debian_packages()
   return packages;
 }
 
+/// Of every file of the project complaint() has nothing to say.
+void expect_no(const std::function<std::string(const fs::path&)>& complaint)
+{
+  std::vector<std::string> complaints;
+  for (const fs::path& file : project_files())
+    if (const std::string wrong = complaint(file); !wrong.empty()) complaints.push_back(file.string() + ": " + wrong);
+  EXPECT_THAT(complaints, IsEmpty());
+}
+
 TEST(House, every_source_opens_with_its_licence)
 {
-  std::vector<std::string> without;
   int sources = 0;
-  for (const fs::path& file : project_files()) {
-    if (!is_source(file)) continue;
-    ++sources;
-    if (!opens_with_licence(text_of(root / file))) without.push_back(file.string());
-  }
+  expect_no(
+      [&](const fs::path& file) { return is_source(file) && ++sources && !opens_with_licence(text_of(root / file)) ? "no licence" : ""; });
   EXPECT_GT(sources, 40);
-  EXPECT_THAT(without, IsEmpty());
 }
 
 TEST(House, sources_are_one_subject_under_500_lines)
 {
-  std::vector<std::string> longer;
-  for (const fs::path& file : project_files()) {
-    const std::string top = file.begin()->string();
-    if (!is_source(file) || (top != "app" && top != "ui" && top != "kernels" && top != "tests")) continue;
-    const std::size_t lines = lines_of(text_of(root / file)).size();
-    if (lines > 500) longer.push_back(file.string() + " has " + std::to_string(lines));
-  }
-  EXPECT_THAT(longer, IsEmpty());
+  expect_no([](const fs::path& file) {
+    const std::size_t lines = is_source(file) ? lines_of(text_of(root / file)).size() : 0;
+    const bool ours = std::set<std::string>{"app", "ui", "kernels", "tests"}.contains(file.begin()->string());
+    return ours && lines > 500 ? std::to_string(lines) + " lines" : "";
+  });
 }
 
 // Several are compiled as one, and a suite runs in one process: a fixture of the same name elsewhere would be another's.
@@ -131,24 +132,16 @@ TEST(House, tests_are_in_a_namespace_of_their_own_and_suites_in_one_file)
 
 TEST(House, no_file_over_a_megabyte)
 {
-  std::vector<std::string> large;
-  for (const fs::path& file : project_files()) {
-    if (fs::file_size(root / file) > 1'000'000) large.push_back(file.string());
-  }
-  EXPECT_THAT(large, IsEmpty());
+  expect_no([](const fs::path& file) { return fs::file_size(root / file) > 1'000'000 ? "too large" : ""; });
 }
 
 TEST(House, no_trace_of_one_machine)
 {
-  std::vector<std::string> traces;
-  for (const fs::path& file : project_files()) {
-    if (file == "tests/unit/house_test.cpp") continue; // its own examples
+  expect_no([](const fs::path& file) -> std::string {
     const std::string text = text_of(root / file);
-    if (text.find('\0') != std::string::npos) continue; // pictures and other binary data
-    const std::string trace = machine_trace(text);
-    if (!trace.empty()) traces.push_back(file.string() + ": " + trace);
-  }
-  EXPECT_THAT(traces, IsEmpty());
+    const bool binary = text.find('\0') != std::string::npos, own_examples = file == "tests/unit/house_test.cpp";
+    return binary || own_examples ? "" : machine_trace(text);
+  });
 }
 
 TEST(House, third_party_readme_names_every_dependency)
@@ -160,29 +153,26 @@ TEST(House, third_party_readme_names_every_dependency)
   }
   std::set<std::string> dependencies = names_in(cmake, R"(find_package\((\w[\w-]*))");
   dependencies.merge(names_in(cmake, R"(pkg_check_modules\((\w[\w-]*))"));
-  ASSERT_THAT(dependencies, testing::IsSupersetOf({"OpenCL", "OpenImageIO", "embree", "GTest"}));
-  for (const std::string& name : dependencies) EXPECT_THAT(readme, testing::HasSubstr("`" + name + "`"));
+  ASSERT_THAT(dependencies, IsSupersetOf({"OpenCL", "OpenImageIO", "embree", "GTest"}));
+  for (const std::string& name : dependencies) EXPECT_THAT(readme, HasSubstr("`" + name + "`"));
 }
 
 TEST(House, third_party_readme_names_every_debian_package)
 {
   const std::string readme = text_of(root / "third_party/README.md");
   const std::set<std::string> packages = debian_packages();
-  ASSERT_THAT(packages, testing::IsSupersetOf({"g++", "pocl-opencl-icd", "libgtest-dev"}));
-  for (const std::string& name : packages) EXPECT_THAT(readme, testing::HasSubstr("`" + name + "`"));
+  ASSERT_THAT(packages, IsSupersetOf({"g++", "pocl-opencl-icd", "libgtest-dev"}));
+  for (const std::string& name : packages) EXPECT_THAT(readme, HasSubstr("`" + name + "`"));
 }
 
 // Dependencies are found in third_party/, once: a find_package elsewhere would escape the table of licences.
 TEST(House, dependencies_are_found_in_one_place)
 {
-  std::vector<std::string> elsewhere;
-  for (const fs::path& file : project_files()) {
-    if (file.begin()->string() == "third_party" || (file.extension() != ".cmake" && file.filename() != "CMakeLists.txt")) continue;
-    const std::string text = text_of(root / file);
-    if (!names_in(text, R"(\b(find_package|pkg_check_modules|find_library|FetchContent_Declare)\()").empty())
-      elsewhere.push_back(file.string());
-  }
-  EXPECT_THAT(elsewhere, IsEmpty());
+  expect_no([](const fs::path& file) {
+    if (file.begin()->string() == "third_party" || (file.extension() != ".cmake" && file.filename() != "CMakeLists.txt")) return "";
+    const auto found = names_in(text_of(root / file), R"(\b(find_package|pkg_check_modules|find_library|FetchContent_Declare)\()");
+    return found.empty() ? "" : "finds a dependency";
+  });
 }
 
 // The checks themselves, on cases made up for them.

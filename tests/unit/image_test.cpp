@@ -3,8 +3,7 @@
 // comparisons take them: what is decoded and what is linear already, which channels, which way up; and masks.
 #include "image/image.h"
 #include "measure/read_picture.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 #include <sys/mount.h>
 #include <unistd.h>
@@ -111,10 +110,8 @@ TEST_F(Pictures, AreTurnedAsTheirFileSays)
   EXPECT_EQ(turned.width, 1);
   ASSERT_EQ(turned.height, 3);
   EXPECT_EQ(turned.data, as_seen.data);
-  const Image mirrored = [&] {
-    write_file_whole(folder / "mirrored.tif", tiff(3, 1, 2, "\x10\x20\x30"));
-    return read_image(folder / "mirrored.tif");
-  }();
+  write_file_whole(folder / "mirrored.tif", tiff(3, 1, 2, "\x10\x20\x30"));
+  const Image mirrored = read_image(folder / "mirrored.tif");
   EXPECT_EQ(mirrored.data, (std::vector<float>{as_seen.data[2], as_seen.data[1], as_seen.data[0]}));
 }
 

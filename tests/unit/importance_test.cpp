@@ -3,11 +3,7 @@
 // solid angles are known.
 #include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
-#include "spectral/effort/importance.h"
-#include "tests/support/errors.h"
-#include "tests/support/presets.h"
+#include "tests/support/plans.h"
 
 namespace nephroid::importance_test {
 
@@ -33,19 +29,10 @@ preset::Shape room(double x, double y, double z)
 
 preset::Light lamp(const preset::LightSpectrum& spectrum, double power_w = 1)
 {
-  preset::Light light;
-  light.spectrum = spectrum;
-  light.power_w = power_w;
-  light.position = {0.3, 1.5, 0.2};
-  return light;
+  return {.spectrum = spectrum, .power_w = power_w, .position = {0.3, 1.5, 0.2}};
 }
 
-preset::LightSpectrum illuminant(const std::string& name)
-{
-  preset::LightSpectrum s;
-  s.illuminant = name;
-  return s;
-}
+preset::LightSpectrum illuminant(const std::string& name) { return {.illuminant = name}; }
 
 /// A glass ball of radius 0.5 about the origin in a room of 6 x 4 x 5 of `wall`, under one lamp F2.
 preset::Preset ball_in_a_room(const preset::Material& wall)
@@ -57,12 +44,6 @@ preset::Preset ball_in_a_room(const preset::Material& wall)
   p.scene.objects = {object("room", room(6, 4, 5), "wall"), object("ball", check::ball(0.5), "glass")};
   p.scene.lights = {lamp(illuminant("F2"))};
   return p;
-}
-
-WavelengthImportance importance_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::wavelength_importance(spectral::settings(p), scene, scene::build_bvh(scene.geometry));
 }
 
 /// The product of spectra divided by its largest value.
@@ -266,7 +247,7 @@ TEST(Importance, OfOtherEffortsNeedsNoSurroundings)
   }
   for (const Effort effort : {Effort::equal, Effort::random}) {
     spectral::settings(p).effort = effort;
-    EXPECT_THAT(importance_of(p).u, testing::Each(1));
+    EXPECT_THAT(importance_of(p).u, Each(1));
   }
 }
 
@@ -277,9 +258,8 @@ std::string refusal_of_importance(const preset::Preset& p)
 
 TEST(Importance, ThatIsZeroEverywhereIsRefusedWithTheReason)
 {
-  using testing::HasSubstr;
   preset::Preset p = ball_in_a_room(white(0));
-  EXPECT_THAT(refusal_of_importance(p), testing::StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every wavelength: "));
+  EXPECT_THAT(refusal_of_importance(p), StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every wavelength: "));
   EXPECT_THAT(refusal_of_importance(p), HasSubstr("nothing around the caustic objects reflects a wavelength that the lights have"));
   p = ball_in_a_room(white());
   p.scene.lights[0].power_w = 0;
@@ -309,8 +289,8 @@ TEST(Importance, OfAClusterIsTheLargestOrTheMean)
   u[3] = 0.25, u[4] = 1, u[5] = 0.5;
   const std::vector<std::vector<int>> clusters{{3, 4, 5, 6}, {0}, {5, 3}};
   using Cluster = spectral::Importance::Cluster;
-  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::maximum), testing::ElementsAre(1, 0, 0.5));
-  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::mean), testing::ElementsAre(0.4375, 0, 0.375));
+  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::maximum), ElementsAre(1, 0, 0.5));
+  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::mean), ElementsAre(0.4375, 0, 0.375));
 }
 
 // ceil(u N), and never two turns in one pass, so that sppm can take them as the passes go by.

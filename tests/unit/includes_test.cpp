@@ -55,23 +55,21 @@ struct LibraryRule {
   std::string folders;
 };
 
-const std::vector<LibraryRule> library_rules{
-    {"CL/", "compute"},
-    {"OpenImageIO/", "image"},
-    {"assimp/", "scene"},
-    {"embree", "scene"},
-    {"CLI/", "cli"},
-    {"yaml-cpp/", "optics"},
-    {"GLFW/", "ui"},
-    {"GL/", "ui"},
-    {"imgui", "ui"},
-    {"implot", "ui"},
-    {"imcmd_", "ui"},
-    {"FLIP.h", "measure"},
-    {"Eigen/", "measure, inverse"},
-    {"qrencode", "inverse"},
-    {"ImGuizmo", "ui"},
-};
+const std::vector<LibraryRule> library_rules{{"CL/", "compute"},
+                                             {"OpenImageIO/", "image"},
+                                             {"assimp/", "scene"},
+                                             {"embree", "scene"},
+                                             {"CLI/", "cli"},
+                                             {"yaml-cpp/", "optics"},
+                                             {"GLFW/", "ui"},
+                                             {"GL/", "ui"},
+                                             {"imgui", "ui"},
+                                             {"implot", "ui"},
+                                             {"imcmd_", "ui"},
+                                             {"FLIP.h", "measure"},
+                                             {"Eigen/", "measure, inverse"},
+                                             {"qrencode", "inverse"},
+                                             {"ImGuizmo", "ui"}};
 
 /// What is wrong with one include of a file of `folder`; empty where nothing is.
 std::string break_of(const std::string& folder, const std::string& included, const FolderTable& table)
@@ -167,7 +165,7 @@ TEST(Includes, point_one_way)
   const FolderTable table = project_table();
   const Folders engines = engine_folders();
   ASSERT_FALSE(engines.empty());
-  ASSERT_THAT(table.at("base"), testing::ElementsAre("base")) << "ARCHITECTURE.md's table could not be read";
+  ASSERT_THAT(table.at("base"), ElementsAre("base")) << "ARCHITECTURE.md's table could not be read";
   const std::set<std::string> endings{".cpp", ".h", ".cl"};
   std::vector<std::string> breaks;
   int files = 0;
@@ -180,7 +178,7 @@ TEST(Includes, point_one_way)
     }
   }
   EXPECT_GT(files, 20);
-  EXPECT_THAT(breaks, testing::IsEmpty());
+  EXPECT_THAT(breaks, IsEmpty());
 }
 
 // An engine is known by its line in app/engines.cpp, and by the declaration and the call of its panels.
@@ -193,7 +191,7 @@ TEST(Includes, engines_are_named_where_they_are_listed)
   for (int c = std::fgetc(lines); c != EOF; c = std::fgetc(lines)) places += static_cast<char>(c);
   EXPECT_EQ(pclose(lines), 0);
   EXPECT_LE(std::count(places.begin(), places.end(), '\n'), 15) << places;
-  EXPECT_THAT(places, testing::HasSubstr("app/engines.cpp")) << "the script sees nothing";
+  EXPECT_THAT(places, HasSubstr("app/engines.cpp")) << "the script sees nothing";
 }
 
 TEST(Includes, every_row_of_the_table_is_a_folder)
@@ -294,7 +292,7 @@ TEST(Includes, files_include_what_they_use_of_the_standard_library)
         for (const std::string& word : words)
           if (source.text.find("std::" + word) != std::string::npos) missing.push_back(file + ": std::" + word + " lacks <" + header + ">");
   }
-  EXPECT_THAT(missing, testing::IsEmpty());
+  EXPECT_THAT(missing, IsEmpty());
 }
 
 // The check itself, on breaks made up for it.

@@ -3,7 +3,6 @@
 #include "measure/measured_job.h"
 
 #include "measure/history_file.h"
-#include "tests/support/errors.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
 
@@ -27,13 +26,11 @@ public:
   bool finished() const override { return done_ >= steps_; }
   job::Progress progress() const override
   {
-    job::Progress p;
-    p.step = done_;
-    p.steps = steps_;
-    p.fraction = static_cast<double>(done_) / steps_;
-    p.work = static_cast<std::uint64_t>(done_) * 1000;
-    p.work_seconds = 10.0 * done_;
-    return p;
+    return {.fraction = static_cast<double>(done_) / steps_,
+            .step = done_,
+            .steps = steps_,
+            .work = static_cast<std::uint64_t>(done_) * 1000,
+            .work_seconds = 10.0 * done_};
   }
   job::Snapshot snapshot() override
   {
@@ -44,10 +41,7 @@ public:
       picture->rgb.push_back(static_cast<float>((sums_[0][i] + sums_[1][i]) / n));
       if (halves_ && b > 0) picture->error_draw.push_back(static_cast<float>((sums_[0][i] / a - sums_[1][i] / b) * std::sqrt(a * b) / n));
     }
-    job::Snapshot snapshot;
-    snapshot.picture = std::move(picture);
-    snapshot.progress = progress();
-    return snapshot;
+    return {.picture = std::move(picture), .progress = progress()};
   }
   void save(ByteSink& to) override { to.write(std::vector<std::byte>(static_cast<std::size_t>(done_))); }
   void load(ByteSource& from) override { done_ = static_cast<int>(from.left()); }
@@ -128,7 +122,7 @@ TEST(MeasuredJob, WithoutAReferenceTheEstimateIsWhatThereIs)
   const auto job = noisy(settings(), nullptr);
   const job::History history = run(*job);
   EXPECT_EQ(history.error_column, "estimated_lab_mean");
-  EXPECT_THAT(history.columns, testing::Not(Contains("lab_mean")));
+  EXPECT_THAT(history.columns, Not(Contains("lab_mean")));
   EXPECT_GE(history.rows.front().step, 2) << "it needs both halves";
 }
 

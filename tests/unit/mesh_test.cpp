@@ -2,7 +2,7 @@
 // Mesh files of every format written here, checks of meshes, smooth normals and winding numbers.
 #include "scene/mesh.h"
 #include "tests/support/meshes.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace nephroid::scene::mesh_test {
 
@@ -196,9 +196,8 @@ TEST(Inspect, CountsWhatIsWrong)
 // the mesh open.
 TEST(Inspect, SliversCloseTheSurface)
 {
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 0, 1}};
-  mesh.triangles = {{0, 3, 2}, {2, 3, 1}, {0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {1, 3, 4}};
+  Mesh mesh{.positions = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 0, 1}},
+            .triangles = {{0, 3, 2}, {2, 3, 1}, {0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {1, 3, 4}}};
   const MeshReport report = inspect(mesh);
   EXPECT_EQ(report.degenerate, 1u); // 0-2-1 lie on one line
   EXPECT_TRUE(report.closed());
@@ -208,9 +207,7 @@ TEST(Inspect, SliversCloseTheSurface)
 TEST(Inspect, NeedlesAreKeptAtAnyScale)
 {
   for (float scale : {1e-6f, 1.0f, 1e6f}) {
-    Mesh mesh;
-    mesh.positions = {{0, 0, 0}, {scale, 0, 0}, {scale / 2, scale * 1e-6f, 0}};
-    mesh.triangles = {{0, 1, 2}};
+    Mesh mesh{.positions = {{0, 0, 0}, {scale, 0, 0}, {scale / 2, scale * 1e-6f, 0}}, .triangles = {{0, 1, 2}}};
     EXPECT_EQ(inspect(mesh).degenerate, 0u) << scale;
     mesh.positions[2].y = scale * 1e-8f; // below the spacing of floats at that size
     EXPECT_EQ(inspect(mesh).degenerate, 1u) << scale;
@@ -241,8 +238,7 @@ TEST(SmoothNormals, DoNotDependOnTheCut)
 
 TEST(SmoothNormals, AreUnitEvenWhereNothingSaysSo)
 {
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}};
+  Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 5, 5}}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 1}}; // back to back, and a vertex that nobody uses
   compute_smooth_normals(mesh);
   for (const glm::vec3& n : mesh.normals) EXPECT_FLOAT_EQ(glm::length(n), 1);

@@ -4,7 +4,7 @@
 #include "optics/colour.h"
 #include "optics/fresnel.h"
 #include "optics/spectrum.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::optics_test {
 
@@ -179,7 +179,7 @@ TEST(Spectrum, EveryIlluminantIsNamedAndAnUnknownOneIsRefused)
   EXPECT_EQ(illuminant_names().size(), 16u);
   for (const std::string& name : illuminant_names()) EXPECT_NEAR(sum(illuminant(name)), 1, 1e-14) << name;
   const std::string line = refusal_of([] { illuminant("D66"); });
-  EXPECT_THAT(line, testing::AllOf(testing::HasSubstr("no illuminant is called \"D66\""), testing::HasSubstr("A, D50, D65")));
+  EXPECT_THAT(line, AllOf(HasSubstr("no illuminant is called \"D66\""), HasSubstr("A, D50, D65")));
 }
 
 TEST(Spectrum, TablesAreInterpolatedLinearly)
@@ -210,9 +210,9 @@ TEST(Spectrum, BlackBodyFollowsPlanck)
 TEST(Spectrum, BlackBodyStaysFiniteAtExtremes)
 {
   for (double kelvin : {1e-3, 1.0, 1e9, 1e300}) EXPECT_NEAR(sum(blackbody(kelvin)), 1, 1e-12) << kelvin;
-  EXPECT_THAT(refusal_of([] { blackbody(0); }), testing::HasSubstr("a black body of 0 K"));
-  EXPECT_THAT(refusal_of([] { blackbody(-1); }), testing::HasSubstr("above 0 K"));
-  EXPECT_THAT(refusal_of([] { blackbody(std::nan("")); }), testing::HasSubstr("above 0 K"));
+  EXPECT_THAT(refusal_of([] { blackbody(0); }), HasSubstr("a black body of 0 K"));
+  EXPECT_THAT(refusal_of([] { blackbody(-1); }), HasSubstr("above 0 K"));
+  EXPECT_THAT(refusal_of([] { blackbody(std::nan("")); }), HasSubstr("above 0 K"));
 }
 
 TEST(Spectrum, LightTableIsZeroOutsideAndSumsToOne)
@@ -236,15 +236,15 @@ TEST(Spectrum, LinesGoToTheirTwoNearestWavelengths)
 
 TEST(Spectrum, BadLightsAreRefused)
 {
-  EXPECT_THAT(refusal_of([] { light_table(Rows{}); }), testing::HasSubstr("the table is empty"));
-  EXPECT_THAT(refusal_of([] { light_table(Rows{{900, 1}, {1000, 1}}); }), testing::HasSubstr("no power in 380..780 nm"));
-  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 0}, {600, 0}}); }), testing::HasSubstr("no power"));
-  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 1}, {600, -1}}); }), testing::HasSubstr("at 600 nm is -1"));
-  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 1}, {500, 2}}); }), testing::HasSubstr("500 nm is given twice"));
-  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, std::nan("")}}); }), testing::HasSubstr("not finite"));
-  EXPECT_THAT(refusal_of([] { light_lines(Rows{}); }), testing::HasSubstr("no power"));
-  EXPECT_THAT(refusal_of([] { light_lines(Rows{{200, 1}}); }), testing::HasSubstr("no power in 380..780 nm"));
-  EXPECT_THAT(refusal_of([] { light_lines(Rows{{500, INFINITY}}); }), testing::HasSubstr("not finite"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{}); }), HasSubstr("the table is empty"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{900, 1}, {1000, 1}}); }), HasSubstr("no power in 380..780 nm"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 0}, {600, 0}}); }), HasSubstr("no power"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 1}, {600, -1}}); }), HasSubstr("at 600 nm is -1"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, 1}, {500, 2}}); }), HasSubstr("500 nm is given twice"));
+  EXPECT_THAT(refusal_of([] { light_table(Rows{{500, std::nan("")}}); }), HasSubstr("not finite"));
+  EXPECT_THAT(refusal_of([] { light_lines(Rows{}); }), HasSubstr("no power"));
+  EXPECT_THAT(refusal_of([] { light_lines(Rows{{200, 1}}); }), HasSubstr("no power in 380..780 nm"));
+  EXPECT_THAT(refusal_of([] { light_lines(Rows{{500, INFINITY}}); }), HasSubstr("not finite"));
 }
 
 // Under its design light C the patches have published xyY; under D65 Y of the greys is close to their nominal 9.5 .. 2 values.
@@ -262,7 +262,7 @@ TEST(Spectrum, ColorCheckerGreysFallFromWhiteToBlack)
   EXPECT_NEAR(at(colorchecker_patch("dark skin"), 380), 0.048, 1e-12);
   EXPECT_NEAR(at(colorchecker_patch("dark skin"), 381), 0.048 + (0.051 - 0.048) / 5, 1e-12);
   EXPECT_NEAR(at(colorchecker_patch("blue sky"), 382), 0.113 + 2 * (0.138 - 0.113) / 5, 1e-12);
-  EXPECT_THAT(refusal_of([] { colorchecker_patch("blue skye"); }), testing::HasSubstr("did you mean \"blue sky\"?"));
+  EXPECT_THAT(refusal_of([] { colorchecker_patch("blue skye"); }), HasSubstr("did you mean \"blue sky\"?"));
 }
 
 TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange)
@@ -271,8 +271,8 @@ TEST(Spectrum, ReflectancesHoldTheirEndsAndStayInRange)
   EXPECT_EQ(at(r, 380), 0.2);
   EXPECT_NEAR(at(r, 550), 0.3, 1e-15);
   EXPECT_EQ(at(r, 780), 0.4);
-  EXPECT_THAT(refusal_of([] { reflectance_table(Rows{{500, 1.2}}); }), testing::HasSubstr("0 to 1"));
-  EXPECT_THAT(refusal_of([] { reflectance_table(Rows{{500, std::nan("")}}); }), testing::HasSubstr("0 to 1"));
+  EXPECT_THAT(refusal_of([] { reflectance_table(Rows{{500, 1.2}}); }), HasSubstr("0 to 1"));
+  EXPECT_THAT(refusal_of([] { reflectance_table(Rows{{500, std::nan("")}}); }), HasSubstr("0 to 1"));
   EXPECT_EQ(constant_spectrum(0.5)[200], 0.5);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a run says about itself before and while it works: the plan as JSON and as text, the switch that a plan names for a pass (the window
 // draws a check box from it and the command line names it), the files in its folder, its progress.
-#include "base/error.h"
 #include "cli/progress.h"
 #include "plan/plan.h"
 #include "preset/read.h"
@@ -12,7 +11,6 @@
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/presets.h"
 #include "tests/support/process_state.h"
-#include "tests/support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 
@@ -52,7 +50,7 @@ TEST(Plan, JsonIsTheContract)
 TEST(Plan, AJsonLineHasTheNameToo)
 {
   const std::string line = to_json_line(example(), "a,seed=2");
-  EXPECT_THAT(line, testing::Not(HasSubstr("\n")));
+  EXPECT_THAT(line, Not(HasSubstr("\n")));
   EXPECT_TRUE(line.starts_with(R"({"name":"a,seed=2","engine":"spectral",)")) << line;
   auto json = Json::parse(line);
   json.erase("name");
@@ -223,7 +221,7 @@ protected:
   }
   const preset::Preset preset = test::empty_preset();
   const test::TemporaryFolder temporary;
-  const std::filesystem::path folder = temporary.path();
+  const fs::path folder = temporary.path();
 };
 
 constexpr const char* whole =
@@ -251,7 +249,7 @@ TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes)
 
 TEST_F(RunFolder, OnlyAFolderThatWasMadeIsNew)
 {
-  std::filesystem::create_directory(folder / "of the user");
+  fs::create_directory(folder / "of the user");
   EXPECT_FALSE(run::claim_folder(folder / "of the user"));
   EXPECT_TRUE(run::claim_folder(folder / "new" / "inside"));
 }
@@ -262,7 +260,7 @@ TEST_F(RunFolder, AnotherPresetIsAnotherRun)
   preset::Preset other = preset;
   other.seed = 2;
   EXPECT_FALSE(run::finished_run(folder, other));
-  std::filesystem::remove(folder / "image.exr");
+  fs::remove(folder / "image.exr");
   EXPECT_FALSE(run::finished_run(folder, preset));
 }
 
@@ -308,7 +306,7 @@ TEST(ProgressLine, CountsThePassInHand)
   EXPECT_THAT(progress_line("prism", at(1, 100, 0, 0), {}, 100), HasSubstr("100 %  pass 100 of 100"));
   job::Progress by_time = at(0.5, 7, 0, 0);
   by_time.steps = -1;
-  EXPECT_THAT(progress_line("prism", by_time, {}, 100), testing::EndsWith(" 50 %  pass 8"));
+  EXPECT_THAT(progress_line("prism", by_time, {}, 100), EndsWith(" 50 %  pass 8"));
 }
 
 TEST(ProgressLine, NeverIsWiderThanTheTerminal)
@@ -366,7 +364,7 @@ TEST(ProgressDisplay, TheLiveLineIsTakenAway)
   }
   const std::string shown = testing::internal::GetCapturedStderr();
   EXPECT_THAT(shown, HasSubstr("\ra  [##"));
-  EXPECT_THAT(shown, testing::EndsWith("\r\033[K"));
+  EXPECT_THAT(shown, EndsWith("\r\033[K"));
 }
 
 } // namespace nephroid::plan_test

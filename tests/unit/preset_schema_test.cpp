@@ -2,13 +2,9 @@
 // The schema is the committed one, is a valid schema, and agrees with the reader: checked by python3-jsonschema, an independent validator;
 // without it those tests are skipped. docs/presets.md and docs/sweeps.md tell the truth. Every value of the shipped presets replaced by one
 // of a wrong type, and every preset cut off: one Error of bad input at the place. `nephroid presets` and `nephroid schema`.
-#include "base/error.h"
-#include "base/files.h"
 #include "preset/read.h"
 #include "tests/support/random_preset.h"
-#include "tests/support/temporary_folder.h"
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -79,7 +75,7 @@ TEST_F(Schema, TakesEveryShippedPresetAndWhateverIsWritten)
   for (std::uint64_t seed = 0; seed < 30; ++seed) add(preset::to_json(test::random_preset(seed)));
   add(R"({"parent":"first-light","scene":{"materials":{"glass":{"absorption":false},"red":null}},"stop":{"seconds":null}})");
   add(R"({"parent":"first-light","sweep":{"seed":[1,2]}})");
-  EXPECT_THAT(refused(), testing::IsEmpty());
+  EXPECT_THAT(refused(), IsEmpty());
 }
 
 /// What the schema can know, the reader and the schema refuse alike.
@@ -189,7 +185,7 @@ TEST_F(PresetDocs, EveryCommandMeansSomething)
       runs.push_back(read(w[2], overrides).size());
     }
   }
-  EXPECT_THAT(runs, testing::ElementsAre(1, 1, 1, 1, 1, 3, 1, 4, 1, 1, 1, 1, 1));
+  EXPECT_THAT(runs, ElementsAre(1, 1, 1, 1, 1, 3, 1, 4, 1, 1, 1, 1, 1));
 }
 
 TEST_F(PresetDocs, InheritanceIsAsThePageSays)
@@ -261,7 +257,7 @@ TEST(PresetMutation, AnyValueOfAWrongTypeIsRefusedWhereItStands)
 
 TEST(PresetMutation, APresetThatIsCutOffIsRefused)
 {
-  const std::string text = read_file(std::filesystem::path(NEPHROID_SOURCE_DIR) / "presets/first-light.json");
+  const std::string text = read_file(fs::path(NEPHROID_SOURCE_DIR) / "presets/first-light.json");
   const std::size_t end = text.rfind('}');
   for (std::size_t length = 0; length <= end; ++length)
     EXPECT_THROW(preset::parse_preset(text.substr(0, length), "x.json"), Error) << "after " << length << " bytes";
@@ -301,7 +297,7 @@ TEST(PresetVerbs, PresetsListsNameAndDescription)
   for (const preset::ShippedPreset& p : preset::shipped_presets()) {
     const std::size_t line = text.find(p.name + " ");
     ASSERT_NE(line, std::string::npos) << p.name;
-    EXPECT_THAT(text.substr(line, text.find('\n', line) - line), testing::HasSubstr(p.description.substr(0, 9)));
+    EXPECT_THAT(text.substr(line, text.find('\n', line) - line), HasSubstr(p.description.substr(0, 9)));
   }
 }
 
@@ -314,7 +310,7 @@ TEST(PresetVerbs, PresetsAsJson)
     EXPECT_EQ(list[i].size(), 3u);
     EXPECT_EQ(list[i]["name"], shipped[i].name);
     EXPECT_EQ(list[i]["description"], shipped[i].description);
-    EXPECT_TRUE(std::filesystem::equivalent(list[i]["file"].get<std::string>(), shipped[i].file));
+    EXPECT_TRUE(fs::equivalent(list[i]["file"].get<std::string>(), shipped[i].file));
   }
 }
 

@@ -9,7 +9,6 @@
 #include "spectral/settings.h"
 #include "tests/support/presets.h"
 #include "tests/support/random_preset.h"
-#include "tests/support/temporary_folder.h"
 
 #include <nlohmann/json.hpp>
 
@@ -96,13 +95,7 @@ TEST(PresetOverrides, TakeNumbersAsPeopleTypeThem)
 class PresetFiles : public testing::Test {
 protected:
   test::TemporaryFolder folder;
-  std::string write(const std::string& name, const std::string& text) const
-  {
-    const fs::path file = folder.path() / name;
-    fs::create_directories(file.parent_path());
-    write_file_whole(file, text);
-    return file.string();
-  }
+  std::string write(const std::string& name, const std::string& text) const { return folder.write(name, text); }
 };
 
 TEST_F(PresetFiles, AChildTakesOverItsParent)
@@ -196,8 +189,7 @@ TEST(ShippedPresets, AreListedByNameWithALineEach)
     EXPECT_TRUE(preset::read_presets(s.name) == preset::read_presets(s.file.string())) << s.name;
   }
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
-  EXPECT_THAT(names,
-              testing::IsSupersetOf({"first-light", "spectral/ball-lens", "spectral/brilliant", "spectral/plate", "spectral/prism"}));
+  EXPECT_THAT(names, IsSupersetOf({"first-light", "spectral/ball-lens", "spectral/brilliant", "spectral/plate", "spectral/prism"}));
 }
 
 TEST(PresetWriting, EveryShippedPresetReadsBackEqual)
@@ -236,15 +228,15 @@ TEST(PresetWriting, IsCompleteAndInTheOrderOfTheDescription)
   const auto json = nlohmann::ordered_json::parse(preset::to_json(preset::read_preset("first-light")));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, testing::ElementsAre("name", "description", "engine", "unit", "seed", "white", "scene", "spectral", "stop", "reference",
-                                         "measure", "animation", "leave_out"));
+  EXPECT_THAT(keys, ElementsAre("name", "description", "engine", "unit", "seed", "white", "scene", "spectral", "stop", "reference",
+                                "measure", "animation", "leave_out"));
   EXPECT_TRUE(json["scene"]["objects"][0]["shape"].is_null());
   EXPECT_EQ(json["scene"]["materials"]["glass"]["dispersion"]["outside"], "automatic");
 }
 
 TEST(PresetWriting, ListsOfNumbersStayOnOneLine)
 {
-  EXPECT_THAT(preset::to_json(preset::read_preset("first-light")), testing::HasSubstr("\"resolution\": [512, 512]\n"));
+  EXPECT_THAT(preset::to_json(preset::read_preset("first-light")), HasSubstr("\"resolution\": [512, 512]\n"));
 }
 
 TEST(PresetWriting, AnotherFolderFindsTheSameFiles)
@@ -311,8 +303,7 @@ TEST(OnlyRelit, IsNothingElse)
 TEST(Adoptable, NoEngineTakesOnAnothersPreset)
 {
   for (const engine::Engine* own : engine::engines()) {
-    preset::Preset before;
-    before.settings = preset::Settings(own->settings());
+    preset::Preset before{.settings = preset::Settings(own->settings())};
     for (const engine::Engine* other : engine::engines()) {
       if (other == own) continue;
       preset::Preset now = before;

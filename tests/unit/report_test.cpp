@@ -4,7 +4,6 @@
 #include "report/data.h"
 #include "report/report.h"
 #include "tests/support/made_runs.h"
-#include "tests/support/temporary_folder.h"
 
 #include <regex>
 
@@ -83,7 +82,7 @@ TEST_F(Report, is_a_page_that_holds_all_it_needs)
 {
   write_measured_run(folder / "a", "a", 3, 0.1);
   const std::string html = report::report_html(folders({"a"}));
-  EXPECT_THAT(html, AllOf(testing::StartsWith("<!DOCTYPE html>"), testing::EndsWith("</html>\n"), HasSubstr("Chart.js v"),
+  EXPECT_THAT(html, AllOf(StartsWith("<!DOCTYPE html>"), EndsWith("</html>\n"), HasSubstr("Chart.js v"),
                           HasSubstr("Released under the MIT License"), HasSubstr("content=\"default-src 'none'; img-src data:;"),
                           Not(HasSubstr("{{"))));
   EXPECT_FALSE(std::regex_search(html.substr(0, html.find("Chart.js v")), std::regex("<(link|img|iframe)|@import|url\\(|src=|href=")));
@@ -174,7 +173,7 @@ TEST_F(Report, compares_at_three_figures_where_no_round_error_is_common)
   }
   const std::vector<std::string> rows = speed_ups(metric({"a", "b"}));
   ASSERT_EQ(rows.size(), 1u);
-  EXPECT_THAT(rows[0], testing::StartsWith("1 < 2 at 6.71: "));
+  EXPECT_THAT(rows[0], StartsWith("1 < 2 at 6.71: "));
 }
 
 /// error^2 = 2^2 / t + bias^2 against an estimate of 2 / sqrt(t): at the end, 323 s, noise is 0.11.
@@ -296,7 +295,7 @@ TEST_F(Report, says_what_is_not_there)
   EXPECT_TRUE(metric({"one"}).at("lines").at(0).at("slope").is_null());
   EXPECT_EQ(data({"one"}).at("notes"), Json({"The reference reference.exr is not there any more."}));
   fs::remove(folder / "one" / "image.exr");
-  EXPECT_THAT(data({"one"}).at("notes").at(1).get<std::string>(), testing::EndsWith("image.exr is missing."));
+  EXPECT_THAT(data({"one"}).at("notes").at(1).get<std::string>(), EndsWith("image.exr is missing."));
   EXPECT_EQ(data({"one"}).at("pictures"), Json::array());
 }
 

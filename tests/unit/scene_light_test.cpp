@@ -5,9 +5,7 @@
 #include "optics/colour.h"
 #include "scene/environment.h"
 #include "scene/materials.h"
-#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
-#include "tests/support/temporary_folder.h"
 #include "tracing/scene_tables.h"
 
 namespace nephroid::scene::scene_light_test {
@@ -69,8 +67,7 @@ TEST(SceneLight, EveryKindOfDispersionSpectrumAndReflectance)
 {
   const FileFinder finder;
   const auto index_at = [&](const preset::Dispersion& d, double nm) { return *make_curve(d, finder, "w").sample(nm).n; };
-  preset::Dispersion d;
-  d.n = 1.33;
+  preset::Dispersion d{.n = 1.33};
   EXPECT_DOUBLE_EQ(index_at(d, 500), 1.33);
   d.type = preset::Dispersion::Type::cauchy;
   d.coefficients = {1.5, 0.01}; // 1.5 + 0.01 / 0.25 at 500 nm
@@ -81,9 +78,7 @@ TEST(SceneLight, EveryKindOfDispersionSpectrumAndReflectance)
   d.type = preset::Dispersion::Type::points;
   EXPECT_NEAR(index_at(d, 600), 1.5, 1e-12);
 
-  preset::LightSpectrum s;
-  s.type = preset::LightSpectrum::Type::lines;
-  s.table = {{500, 3}, {600.5, 1}};
+  preset::LightSpectrum s{.type = preset::LightSpectrum::Type::lines, .table = {{500, 3}, {600.5, 1}}};
   const optics::Spectrum lines = make_light_spectrum(s, "w");
   EXPECT_NEAR(lines[120], 0.75, 1e-12);
   EXPECT_NEAR(lines[220], 0.125, 1e-12);
@@ -94,9 +89,7 @@ TEST(SceneLight, EveryKindOfDispersionSpectrumAndReflectance)
   s.temperature_k = 3000;
   EXPECT_GT(make_light_spectrum(s, "w")[400], 5 * make_light_spectrum(s, "w")[0]); // reddish
 
-  preset::Reflectance r;
-  r.type = preset::Reflectance::Type::table;
-  r.table = {{400, 0}, {600, 1}};
+  preset::Reflectance r{.type = preset::Reflectance::Type::table, .table = {{400, 0}, {600, 1}}};
   EXPECT_NEAR(make_reflectance(r, "w")[120], 0.5, 1e-12);
   r.type = preset::Reflectance::Type::patch;
   r.patch = "blue sky";
@@ -122,10 +115,7 @@ protected:
   }
   Environment load(const std::string& file)
   {
-    preset::Environment environment;
-    environment.file = file;
-    environment.radiance = 3;
-    environment.rotate_deg = 20;
+    preset::Environment environment{.file = file, .radiance = 3, .rotate_deg = 20};
     return make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
   }
 };
@@ -154,9 +144,7 @@ TEST_F(SceneEnvironment, IntegersAreDecodedAndGreyHasThreeChannels)
 
 TEST_F(SceneEnvironment, AConstantIsOneTexel)
 {
-  preset::Environment environment;
-  environment.type = preset::Environment::Type::constant;
-  environment.colour = {0.25, 0.5, 0};
+  preset::Environment environment{.type = preset::Environment::Type::constant, .colour = {0.25, 0.5, 0}};
   Environment e = make_environment(environment, FileFinder(), Place("p.json", "/scene/environment"), warnings);
   EXPECT_EQ(e.width * e.height, 1);
   EXPECT_THAT(e.rgb, ElementsAre(0.25f, 0.5f, 0));
@@ -244,11 +232,7 @@ TEST_F(SceneEnvironment, TheSceneHasIt)
 
 scene::Environment map_of(int width, std::vector<float> rgb)
 {
-  scene::Environment map;
-  map.width = width;
-  map.height = static_cast<int>(rgb.size() / 3) / width;
-  map.rgb = std::move(rgb);
-  return map;
+  return {.width = width, .height = static_cast<int>(rgb.size() / 3) / width, .rgb = std::move(rgb)};
 }
 
 /// Faint and strong, coloured, black.

@@ -3,9 +3,7 @@
 // between fields, refused at the right place.
 #include "scene/materials.h"
 #include "scene/scene.h"
-#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
-#include "tests/support/temporary_folder.h"
 
 namespace nephroid::scene::scene_test {
 
@@ -166,9 +164,7 @@ TEST(Scene, ClosedDielectricsAreTurnedOutwards)
 TEST(Scene, SpheresAndWhatAScaleMakesOfThem)
 {
   preset::Preset preset = ball_over_floor();
-  preset.scene.objects[0].transform.scale = {-3, 3, 3};
-  preset.scene.objects[0].transform.rotate_deg = {10, 20, 30};
-  preset.scene.objects[0].transform.translate = {5, 6, 7};
+  preset.scene.objects[0].transform = {{-3, 3, 3}, {10, 20, 30}, {5, 6, 7}};
   const Scene sphere = load_scene(preset);
   for (int k = 0; k < 3; ++k) EXPECT_EQ(sphere.geometry.ellipsoids[0].half_axes[static_cast<std::size_t>(k)][k], 1.5f);
   EXPECT_FALSE(sphere.geometry.ellipsoids[0].inwards);
@@ -177,8 +173,7 @@ TEST(Scene, SpheresAndWhatAScaleMakesOfThem)
   test::expect_near(low, {3.5, 4.5, 5.5});
   test::expect_near(high, {6.5, 7.5, 8.5});
 
-  preset.scene.objects[0].transform.scale = {2, 4, 6};
-  preset.scene.objects[0].transform.rotate_deg = {0, 0, 30};
+  preset.scene.objects[0].transform = {{2, 4, 6}, {0, 0, 30}, {5, 6, 7}};
   const Scene scene = load_scene(preset);
   const Ellipsoid& ellipsoid = scene.geometry.ellipsoids[0];
   EXPECT_NEAR(volume(scene, 0), 4.0 / 3 * M_PI * 1 * 2 * 3, 1e-5);
@@ -224,7 +219,7 @@ protected:
     return preset;
   }
   const test::TemporaryFolder temporary;
-  const std::filesystem::path folder = temporary.path();
+  const fs::path folder = temporary.path();
 };
 
 constexpr const char* tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
@@ -256,9 +251,7 @@ TEST_F(SceneFiles, DropsAndSaysSo)
 
 TEST_F(SceneFiles, ShippedMaterialsHaveShortNamesWhichFilesBesideThePresetGoBefore)
 {
-  preset::Dispersion dispersion;
-  dispersion.type = preset::Dispersion::Type::file;
-  dispersion.file = "N-BK7";
+  preset::Dispersion dispersion{.type = preset::Dispersion::Type::file, .file = "N-BK7"};
   const FileFinder finder(folder);
   const auto n_at_d = [&] { return make_curve(dispersion, finder, "p.json#/n").sample(587.5618).n.value(); };
   EXPECT_NEAR(n_at_d(), 1.5168, 1e-5); // Schott's data sheet
@@ -279,7 +272,7 @@ TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption)
   EXPECT_TRUE(scene.materials[0].absorbs);
   EXPECT_NEAR(scene.materials[0].k[550 - 380], 0.25, 1e-12);
   EXPECT_NEAR(scene.materials[0].n[0], 1.6, 1e-12); // a table holds its ends
-  EXPECT_THAT(scene.warnings, ElementsAre(testing::AllOf(HasSubstr("material 'glass': "), HasSubstr("400"))));
+  EXPECT_THAT(scene.warnings, ElementsAre(AllOf(HasSubstr("material 'glass': "), HasSubstr("400"))));
   glass.absorption = false;
   EXPECT_FALSE(load_scene(preset).materials[0].absorbs);
   glass.dispersion.outside = preset::Outside::refuse;
@@ -288,7 +281,7 @@ TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption)
 
 TEST_F(SceneFiles, TheBunnyIsClosedAndWhole)
 {
-  if (!std::filesystem::exists("/usr/share/glmark2/models/bunny.obj")) GTEST_SKIP() << "glmark2-data is not installed";
+  if (!fs::exists("/usr/share/glmark2/models/bunny.obj")) GTEST_SKIP() << "glmark2-data is not installed";
   preset::Preset preset = ball_over_floor();
   preset.scene.objects[0].shape.reset();
   preset.scene.objects[0].mesh = "/usr/share/glmark2/models/bunny.obj";
@@ -298,56 +291,28 @@ TEST_F(SceneFiles, TheBunnyIsClosedAndWhole)
   EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
-struct Wrong {
-  const char* says;
-  std::function<void(preset::Scene&)> change;
-};
-
 TEST(SceneRefusals, PointAtTheRightPlace)
 {
   using S = preset::Scene;
-  const Wrong wrongs[] = {
-      {"p.json#/scene/objects/1/name: 'ball' is also object 0", [](S& s) { s.objects[1].name = "ball"; }},
-      {"p.json#/scene/objects/0/mesh: 'no.obj' not found",
-       [](S& s) {
-         s.objects[0].shape.reset();
-         s.objects[0].mesh = "no.obj";
-       }},
-      {"p.json#/scene/objects/0: is 1e-09 units across",
-       [](S& s) {
-         s.objects[0].transform.scale = {1e-9, 1e-9, 1e-9};
-       }},
-      {"p.json#/scene/objects/1: reaches 5e+10 units away",
-       [](S& s) {
-         s.objects[1].transform.scale = {1e11, 1, 1};
-       }},
-      {"p.json#/scene/objects/0: has a vertex at",
-       [](S& s) {
-         s.objects[0].transform.scale = {1e300, 1, 1};
-       }},
-      {"p.json#/scene/lights/0/position: (0, 1e+12, 0) is too far away", [](S& s) { s.lights[0].position[1] = 1e12; }},
-      {"p.json#/scene/lights/0/spectrum: ", [](S& s) { s.lights[0].spectrum.illuminant = "D66"; }},
-      {"p.json#/scene/lights/0/direction: (0, 0, 0) has no direction",
-       [](S& s) {
-         s.lights[0].type = preset::Light::Type::directional;
-         s.lights[0].direction = {0, 0, 0};
-       }},
-      {"p.json#/scene/lights/0/up: (0, 1, 0) is parallel",
-       [](S& s) {
-         s.lights[0].type = preset::Light::Type::area;
-         s.lights[0].up = {0, 1, 0};
-       }},
-      {"p.json#/scene/materials/a~1b~0c/dispersion: ",
-       [](S& s) {
-         s.materials["a/b~c"].type = preset::Material::Type::dielectric;
-         s.materials["a/b~c"].dispersion.n = -1;
-       }},
-      {"p.json#/scene/camera/target: (0, 0, 0) has no direction", [](S& s) { s.camera.target = s.camera.position; }},
-  };
-  for (const Wrong& wrong : wrongs) {
+  using L = preset::Light;
+  const std::pair<const char*, std::function<void(S&)>> wrongs[] = {
+      {"objects/1/name: 'ball' is also object 0", [](S& s) { s.objects[1].name = "ball"; }},
+      {"objects/0/mesh: 'no.obj' not found", [](S& s) { s.objects[0].shape.reset(), s.objects[0].mesh = "no.obj"; }},
+      {"objects/0: is 1e-09 units across", [](S& s) { s.objects[0].transform.scale.fill(1e-9); }},
+      {"objects/1: reaches 5e+10 units away", [](S& s) { s.objects[1].transform.scale[0] = 1e11; }},
+      {"objects/0: has a vertex at", [](S& s) { s.objects[0].transform.scale[0] = 1e300; }},
+      {"lights/0/position: (0, 1e+12, 0) is too far away", [](S& s) { s.lights[0].position[1] = 1e12; }},
+      {"lights/0/spectrum: ", [](S& s) { s.lights[0].spectrum.illuminant = "D66"; }},
+      {"lights/0/direction: (0, 0, 0) has no direction",
+       [](S& s) { s.lights[0].type = L::Type::directional, s.lights[0].direction.fill(0); }},
+      {"lights/0/up: (0, 1, 0) is parallel", [](S& s) { s.lights[0].type = L::Type::area, s.lights[0].up = s.camera.up; }},
+      {"materials/a~1b~0c/dispersion: ",
+       [](S& s) { s.materials["a/b~c"] = {.type = preset::Material::Type::dielectric, .dispersion = {.n = -1}}; }},
+      {"camera/target: (0, 0, 0) has no direction", [](S& s) { s.camera.target = s.camera.position; }}};
+  for (const auto& [says, change] : wrongs) {
     preset::Preset preset = ball_over_floor();
-    wrong.change(preset.scene);
-    EXPECT_THAT(refusal(preset), testing::StartsWith(wrong.says));
+    change(preset.scene);
+    EXPECT_THAT(refusal(preset), StartsWith(std::string("p.json#/scene/") + says));
   }
 }
 

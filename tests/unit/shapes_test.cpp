@@ -3,19 +3,14 @@
 #include "preset/preset.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "tests/support/errors.h"
+#include "tests/support/test.h"
 
 namespace nephroid::scene::shapes_test {
 
 using Type = preset::Shape::Type;
 constexpr double pi = std::numbers::pi;
 
-preset::Shape shape(Type type)
-{
-  preset::Shape result;
-  result.type = type;
-  return result;
-}
+preset::Shape shape(Type type) { return {.type = type}; }
 
 glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t)
 {

@@ -5,7 +5,6 @@
 #include "scene/scene.h"
 #include "spectral/clusters/clusters.h"
 #include "spectral/sight.h"
-#include "tests/support/errors.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/presets.h"
@@ -14,13 +13,7 @@ namespace nephroid::scene::sight_test {
 
 using glm::dvec3;
 
-Scene empty_scene(const glm::dvec3& origin = {0, 0, 0})
-{
-  Scene scene;
-  scene.source = "p.json";
-  scene.origin = origin;
-  return scene;
-}
+Scene empty_scene(const glm::dvec3& origin = {0, 0, 0}) { return {.source = "p.json", .origin = origin}; }
 
 /// The direction through the picture at (x, y) pixels from its top left corner: pixel (i, j) has its centre at (i + .5, j + .5).
 glm::dvec3 direction(const Camera& c, double x, double y)
@@ -33,10 +26,7 @@ glm::dvec3 direction(const Camera& c, double x, double y)
 // from y = -1 to 1. Row 0 is the top, column 0 the left.
 TEST(Camera, CornersOfThePicture)
 {
-  preset::Camera preset;
-  preset.position = {0, 0, 5};
-  preset.fov_deg = 90;
-  preset.resolution = {400, 200};
+  preset::Camera preset{.position = {0, 0, 5}, .fov_deg = 90, .resolution = {400, 200}};
   const Camera camera = make_camera(preset, empty_scene());
   expect_near(direction(camera, 0, 0), {-2, 1, -1});
   expect_near(direction(camera, 400, 0), {2, 1, -1});
@@ -49,9 +39,7 @@ TEST(Camera, CornersOfThePicture)
 // Straight down with up = +x: the picture's right is forward x up = (-y) x (+x) = +z.
 TEST(Camera, LooksDown)
 {
-  preset::Camera preset;
-  preset.position = {1, 10, 2};
-  preset.target = {1, 3, 2};
+  preset::Camera preset{.position = {1, 10, 2}, .target = {1, 3, 2}};
   preset.up = {5, 0.5, 0}; // only its part across the view counts
   const Camera camera = make_camera(preset, empty_scene());
   expect_near(camera.forward, {0, -1, 0});
@@ -63,36 +51,22 @@ TEST(Camera, LooksDown)
 
 TEST(Camera, KeepsItsPlaceFarAway)
 {
-  preset::Camera preset;
-  preset.position = {1e6 + 0.001, 1e6, 1e6 + 0.002};
-  preset.target = {1e6, 1e6, 1e6};
+  preset::Camera preset{.position = {1e6 + 0.001, 1e6, 1e6 + 0.002}, .target = {1e6, 1e6, 1e6}};
   const Camera camera = make_camera(preset, empty_scene({1e6, 1e6, 1e6}));
   expect_near(camera.position, {0.001, 0, 0.002}, 1e-9);
   expect_near(camera.forward, {-1 / std::sqrt(5), 0, -2 / std::sqrt(5)}, 1e-6);
 }
 
-void expect_refused(const preset::Camera& camera, const char* field)
-{
-  EXPECT_THAT(refusal_of([&] { make_camera(camera, empty_scene()); }), StartsWith(std::string("p.json#/scene/camera/") + field + ": "));
-}
-
 TEST(Camera, RefusesWhatIsNoView)
 {
-  preset::Camera bad;
-  bad.target = bad.position;
-  expect_refused(bad, "target");
-  bad = {};
-  bad.up = {0, -1, -4}; // away from (0, 1, 4) to the origin: along the view
-  expect_refused(bad, "up");
-  bad = {};
-  bad.up = {0, 0, 0};
-  expect_refused(bad, "up");
-  bad = {};
-  bad.position[1] = 1e12;
-  expect_refused(bad, "position");
-  bad = {};
-  bad.target[1] = std::nan("");
-  expect_refused(bad, "target");
+  const preset::Vec3 place = preset::Camera{}.position;
+  const std::pair<const char*, preset::Camera> cases[] = {{"target", {.target = place}},
+                                                          {"up", {.up = {0, -1, -4}}}, // from (0, 1, 4) to the origin: along the view
+                                                          {"up", {.up = {0, 0, 0}}},
+                                                          {"position", {.position = {0, 1e12, 4}}},
+                                                          {"target", {.target = {0, std::nan(""), 0}}}};
+  for (const auto& [field, camera] : cases)
+    EXPECT_THAT(refusal_of([&] { make_camera(camera, empty_scene()); }), StartsWith(std::string("p.json#/scene/camera/") + field + ": "));
 }
 
 /// A box about the origin and a quad beside it.
@@ -261,20 +235,14 @@ preset::Preset one_pixel(preset::Vec3 target)
   p.scene.materials["glass"] = test::glass(n);
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["wall"];
-  p.scene.camera.position = {0, 0, 0};
-  p.scene.camera.target = target;
-  p.scene.camera.fov_deg = 1;
-  p.scene.camera.resolution = {1, 1};
+  p.scene.camera = {.position = {0, 0, 0}, .target = target, .fov_deg = 1, .resolution = {1, 1}};
   return p;
 }
 
 preset::Object& add(preset::Preset& p, const char* name, preset::Shape::Type type, const char* material, preset::Vec3 scale,
                     preset::Vec3 at)
 {
-  p.scene.objects.push_back(test::shape_object(name, type, material));
-  p.scene.objects.back().transform.scale = scale;
-  p.scene.objects.back().transform.translate = at;
-  return p.scene.objects.back();
+  return p.scene.objects.emplace_back(shape_object(name, type, material, {.scale = scale, .translate = at}));
 }
 
 struct Seen {
@@ -291,6 +259,12 @@ Seen see(const preset::Preset& p)
   return {sight, scene.origin + glm::dvec3(sight.last.position), name(sight.first.object), name(sight.last.object)};
 }
 
+void expect_seen(const Seen& seen, const char* first, const char* last)
+{
+  EXPECT_EQ(seen.first, first);
+  EXPECT_EQ(seen.last, last);
+}
+
 TEST(Sight, a_pane_displaces_what_is_behind_it)
 {
   // Straight down through a pane of thickness t that leans by a: t sin(a - b) / cos b to the side, with sin a = n sin b.
@@ -300,8 +274,7 @@ TEST(Sight, a_pane_displaces_what_is_behind_it)
   add(p, "pane", preset::Shape::Type::box, "glass", {6, thickness, 6}, {0, -3, 0}).transform.rotate_deg = {0, 0, 40};
   add(p, "wall", preset::Shape::Type::quad, "wall", {20, 1, 20}, {0, -8, 0});
   const Seen seen = see(p);
-  EXPECT_EQ(seen.first, "pane");
-  EXPECT_EQ(seen.last, "wall");
+  expect_seen(seen, "pane", "wall");
   const double b = std::asin(std::sin(lean) / n);
   EXPECT_NEAR(std::abs(seen.place.x), thickness * std::sin(lean - b) / std::cos(b), 1e-5);
   EXPECT_NEAR(seen.place.y, -8, 1e-5);
@@ -318,8 +291,7 @@ TEST(Sight, total_reflection_is_followed)
   add(p, "block", preset::Shape::Type::box, "glass", {1, 4, 4}, {0, 0, 0});
   add(p, "wall", preset::Shape::Type::quad, "wall", {40, 1, 40}, {0, 5, 0}).transform.rotate_deg = {180, 0, 0};
   const Seen seen = see(p);
-  EXPECT_EQ(seen.first, "block");
-  EXPECT_EQ(seen.last, "wall");
+  expect_seen(seen, "block", "wall");
   // Unfolded, y = 2 is met at x = 2 tan 30; the side, at x = 0.5, sends it back to 1 - 2 tan 30.
   const double out = std::asin(n * std::sin(30 * degree)), unfolded = 2 * std::tan(30 * degree);
   EXPECT_NEAR(seen.place.x, 1 - unfolded - 3 * std::tan(out), 1e-5);
@@ -330,13 +302,10 @@ TEST(Sight, a_mirror_is_followed_and_an_empty_one_shows_itself)
 {
   preset::Preset p = one_pixel({1, -1, 0});
   add(p, "mirror", preset::Shape::Type::quad, "mirror", {4, 1, 4}, {1, -1, 0});
-  Seen seen = see(p);
-  EXPECT_EQ(seen.first, "mirror");
-  EXPECT_EQ(seen.last, "mirror");
+  expect_seen(see(p), "mirror", "mirror");
   add(p, "wall", preset::Shape::Type::quad, "wall", {20, 1, 20}, {0, 3, 0}).transform.rotate_deg = {180, 0, 0};
-  seen = see(p);
-  EXPECT_EQ(seen.first, "mirror");
-  EXPECT_EQ(seen.last, "wall");
+  const Seen seen = see(p);
+  expect_seen(seen, "mirror", "wall");
   test::expect_near(seen.place, {5, 3, 0}, 1e-5);
 }
 
@@ -349,19 +318,14 @@ TEST(Sight, glass_that_bends_nothing_is_not_seen)
   EXPECT_EQ(see(p).sight.first.object, -1);
   add(p, "inner", preset::Shape::Type::box, "glass", {1, 1, 1}, {0, 0, -5});
   add(p, "pane", preset::Shape::Type::box, "glass", {3, 3, 3}, {0, 0, -5});
-  Seen seen = see(p);
-  EXPECT_EQ(seen.first, "pane");
-  EXPECT_EQ(seen.last, "pane");
+  expect_seen(see(p), "pane", "pane");
   add(p, "wall", preset::Shape::Type::quad, "wall", {20, 1, 20}, {0, 0, -9}).transform.rotate_deg = {90, 0, 0};
-  seen = see(p);
-  EXPECT_EQ(seen.first, "pane");
-  EXPECT_EQ(seen.last, "wall");
+  expect_seen(see(p), "pane", "wall");
 }
 
 TEST(Sight, nothing_is_seen_where_nothing_is)
 {
-  preset::Preset p = one_pixel({0, 0, -1});
-  const Seen seen = see(p);
+  const Seen seen = see(one_pixel({0, 0, -1}));
   EXPECT_EQ(seen.sight.first.object, -1);
   EXPECT_EQ(seen.sight.last.object, -1);
 }

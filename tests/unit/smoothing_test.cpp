@@ -14,14 +14,9 @@ struct FloorAndWall {
     preset::Preset p;
     p.source = "p.json";
     p.scene.materials["wall"];
-    p.scene.objects = {test::shape_object("floor", preset::Shape::Type::quad, "wall"),
-                       test::shape_object("wall", preset::Shape::Type::quad, "wall")};
-    for (preset::Object& object : p.scene.objects) object.transform.scale = {20, 1, 20};
-    p.scene.objects[1].transform.rotate_deg = {90, 0, 0};
-    p.scene.objects[1].transform.translate = {0, 0, -2};
-    p.scene.camera.position = {0, 2, 3};
-    p.scene.camera.target = {0, 0, -2};
-    p.scene.camera.resolution = {size, size};
+    p.scene.objects = {shape_object("floor", preset::Shape::Type::quad, "wall", {.scale = {20, 1, 20}}),
+                       shape_object("wall", preset::Shape::Type::quad, "wall", {{20, 1, 20}, {90, 0, 0}, {0, 0, -2}})};
+    p.scene.camera = {.position = {0, 2, 3}, .target = {0, 0, -2}, .resolution = {size, size}};
     scene = scene::load_scene(p);
     bvh = scene::build_bvh(scene.geometry);
   }
@@ -34,7 +29,8 @@ struct Photons {
   std::vector<float> rgb, error_draw;
 };
 
-template <class Density>
+using Density = std::function<double(int x, int y)>;
+
 Photons scatter(const Density& density, unsigned seed)
 {
   std::mt19937 random(seed);
@@ -54,25 +50,28 @@ Photons scatter(const Density& density, unsigned seed)
 
 double sum(const std::vector<float>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
-/// Of the pixels of rows [from, to) that are more than `margin` pixels from the picture's sides: their mean and variance in R.
+/// Of the pixels of rows [from, to) that are more than `margin` pixels from the picture's sides: their mean and variance in a channel, R.
 struct Moments {
   double mean = 0, variance = 0;
 };
-Moments moments(const std::vector<float>& rgb, int from, int to, int margin)
+Moments moments(const std::vector<float>& rgb, int from, int to, int margin, std::size_t channel = 0)
 {
   double n = 0, s = 0, s2 = 0;
   for (int y = from; y < to; ++y)
     for (int x = margin; x < size - margin; ++x) {
-      const double v = rgb[3 * static_cast<std::size_t>(y * size + x)];
+      const double v = rgb[3 * static_cast<std::size_t>(y * size + x) + channel];
       n += 1, s += v, s2 += v * v;
     }
   return {s / n, s2 / n - s * s / (n * n)};
 }
 
-TEST(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
+class Smoothing : public testing::Test, protected FloorAndWall {
+protected:
+  spectral::Smoothing smoothing{scene, bvh, true};
+};
+
+TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
 {
-  const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int, int) { return 2.0; }, 1);
   const double power = sum(photons.rgb);
   const Moments before = moments(photons.rgb, size / 2 + 8, size - 8, 8);
@@ -88,21 +87,17 @@ TEST(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
   EXPECT_NEAR(error.variance, after.variance, 0.5 * after.variance);
 }
 
-TEST(Smoothing, leaves_pixels_that_hold_enough_photons_alone)
+TEST_F(Smoothing, leaves_pixels_that_hold_enough_photons_alone)
 {
-  const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int, int) { return 400.0; }, 2);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
   EXPECT_EQ(photons.rgb, before);
 }
 
-TEST(Smoothing, does_not_carry_light_from_one_surface_to_another)
+TEST_F(Smoothing, does_not_carry_light_from_one_surface_to_another)
 {
-  const FloorAndWall room;
   // Where the wall meets the floor: y = 0, z = -2 is the middle row.
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int, int y) { return y >= size / 2 ? 1.0 : 0.0; }, 3);
   smoothing.spread(photons.rgb, photons.error_draw);
   const auto row_sum = [&](int y) {
@@ -112,12 +107,10 @@ TEST(Smoothing, does_not_carry_light_from_one_surface_to_another)
   EXPECT_GT(row_sum(size / 2), 0);
 }
 
-TEST(Smoothing, leaves_even_light_even_where_kernels_are_cut)
+TEST_F(Smoothing, leaves_even_light_even_where_kernels_are_cut)
 {
   // Where the two surfaces meet and at the picture's sides kernels are cut. Were a pixel's light just shared out evenly, the outermost
   // row would keep some 70 % of its light and the row that is a kernel away have 120 %.
-  const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
   constexpr double density = 0.25;
   constexpr unsigned pictures = 200;
   std::vector<double> rows(size), columns(size);
@@ -137,10 +130,8 @@ TEST(Smoothing, leaves_even_light_even_where_kernels_are_cut)
   }
 }
 
-TEST(Smoothing, keeps_the_light_of_an_outline_in_it)
+TEST_F(Smoothing, keeps_the_light_of_an_outline_in_it)
 {
-  const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
   // The floor's last row before the wall may hold light of both: it stays in that row.
   Photons photons = scatter([](int, int y) { return y == size / 2 ? 1.0 : 0.0; }, 8);
   const std::vector<float> before = photons.rgb;
@@ -161,15 +152,11 @@ scene::Scene two_walls(const preset::Object& between, double wall_height)
   p.scene.materials["wall"];
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["glass"].type = preset::Material::Type::dielectric;
-  p.scene.objects = {between, test::shape_object("left", preset::Shape::Type::quad, "wall"),
-                     test::shape_object("right", preset::Shape::Type::quad, "wall")};
-  for (const int i : {1, 2}) {
-    p.scene.objects[static_cast<std::size_t>(i)].transform.scale = {40, 1, 80};
-    p.scene.objects[static_cast<std::size_t>(i)].transform.translate = {i == 1 ? -20.0 : 20.0, wall_height, 0};
-  }
-  p.scene.camera.position = {0, 5, 0.5};
-  p.scene.camera.target = {0, 0, 0};
-  p.scene.camera.resolution = {size, size};
+  const auto half = [&](const char* name, double x) {
+    return shape_object(name, preset::Shape::Type::quad, "wall", {.scale = {40, 1, 80}, .translate = {x, wall_height, 0}});
+  };
+  p.scene.objects = {between, half("left", -20), half("right", 20)};
+  p.scene.camera = {.position = {0, 5, 0.5}, .target = {0, 0, 0}, .resolution = {size, size}};
   return scene::load_scene(p);
 }
 
@@ -185,33 +172,26 @@ void expect_no_light_on_the_left(const scene::Scene& scene)
   EXPECT_NE(photons.rgb, before);
 }
 
-TEST(Smoothing, knows_what_a_mirror_shows)
+TEST_F(Smoothing, knows_what_a_mirror_shows)
 {
-  preset::Object mirror = test::shape_object("mirror", preset::Shape::Type::quad, "mirror");
-  mirror.transform.scale = {20, 1, 20};
-  expect_no_light_on_the_left(two_walls(mirror, 10));
+  expect_no_light_on_the_left(two_walls(shape_object("mirror", preset::Shape::Type::quad, "mirror", {.scale = {20, 1, 20}}), 10));
 }
 
-TEST(Smoothing, knows_what_a_window_shows)
+TEST_F(Smoothing, knows_what_a_window_shows)
 {
-  preset::Object pane = test::shape_object("pane", preset::Shape::Type::box, "glass");
-  pane.transform.scale = {20, 0.2, 20};
-  pane.transform.translate = {0, 2, 0};
-  pane.transform.rotate_deg = {30, 0, 0};
-  expect_no_light_on_the_left(two_walls(pane, 0));
+  expect_no_light_on_the_left(
+      two_walls(shape_object("pane", preset::Shape::Type::box, "glass", {{20, 0.2, 20}, {30, 0, 0}, {0, 2, 0}}), 0));
 }
 
 /// What a ball shows is torn apart: there the ball itself says how far light is spread, as its picture is no more even than that.
-TEST(Smoothing, spreads_within_curved_glass)
+TEST_F(Smoothing, spreads_within_curved_glass)
 {
-  preset::Object ball = test::shape_object("ball", preset::Shape::Type::sphere, "glass");
-  ball.transform.scale = {8, 8, 8};
-  ball.transform.translate = {0, -4, 0};
-  const scene::Scene scene = two_walls(ball, -20);
-  spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), true);
+  const scene::Scene glass =
+      two_walls(shape_object("ball", preset::Shape::Type::sphere, "glass", {.scale = {8, 8, 8}, .translate = {0, -4, 0}}), -20);
+  spectral::Smoothing within(glass, scene::build_bvh(glass.geometry), true);
   Photons photons = scatter([](int, int) { return 1.0; }, 11);
   const double variance = moments(photons.rgb, 16, size - 16, 16).variance, power = sum(photons.rgb);
-  smoothing.spread(photons.rgb, photons.error_draw);
+  within.spread(photons.rgb, photons.error_draw);
   EXPECT_LT(moments(photons.rgb, 16, size - 16, 16).variance, variance / 4);
   EXPECT_NEAR(sum(photons.rgb), power, 1e-5 * power);
 }
@@ -219,10 +199,8 @@ TEST(Smoothing, spreads_within_curved_glass)
 /// Stripes that are narrower than the kernels are washed out: most of the error is that, not noise, and the draw takes it in. It tells a
 /// little too little: kernels follow the noise, which the draw does not know, and what does not stand out from the noise is not counted. A
 /// draw of noise alone would be half the error.
-TEST(Smoothing, draws_how_far_light_was_moved)
+TEST_F(Smoothing, draws_how_far_light_was_moved)
 {
-  const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
   const auto stripes = [](int x, int) { return x % 6 < 3 ? 3.0 : 0.0; };
   double drawn = 0, error = 0;
   for (unsigned seed = 100; seed < 132; ++seed) {
@@ -243,7 +221,6 @@ TEST(Smoothing, draws_how_far_light_was_moved)
 struct Errors {
   double plain = 0, everywhere = 0, by_gain = 0;
 };
-template <class Density>
 Errors errors_of(const Density& density)
 {
   const FloorAndWall room;
@@ -266,7 +243,7 @@ Errors errors_of(const Density& density)
   return errors;
 }
 
-TEST(Smoothing, goes_by_what_it_gains)
+TEST_F(Smoothing, goes_by_what_it_gains)
 {
   // Even light is all noise: what is spread everywhere is the best there is.
   const Errors even = errors_of([](int, int) { return 1.0; });
@@ -282,10 +259,8 @@ TEST(Smoothing, goes_by_what_it_gains)
   EXPECT_LT(both.by_gain, 0.95 * both.plain);
 }
 
-TEST(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
+TEST_F(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
 {
-  const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int x, int) { return x == size / 2 ? 1000.0 : 1.0; }, 4);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -297,45 +272,35 @@ TEST(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
   EXPECT_NEAR(line, was, 0.02 * was);
 }
 
-TEST(Smoothing, leaves_a_picture_of_one_pixel_alone)
+TEST_F(Smoothing, leaves_a_picture_of_one_pixel_alone)
 {
   preset::Preset p;
   p.source = "p.json";
   p.scene.camera.resolution = {1, 1};
-  const scene::Scene scene = scene::load_scene(p);
+  const scene::Scene empty = scene::load_scene(p);
   std::vector<float> rgb{3, -1, 2}, draw{1, 1, 1};
-  spectral::Smoothing(scene, scene::build_bvh(scene.geometry), true).spread(rgb, draw);
+  spectral::Smoothing(empty, scene::build_bvh(empty.geometry), true).spread(rgb, draw);
   EXPECT_EQ(rgb, (std::vector<float>{3, -1, 2}));
   EXPECT_EQ(draw, (std::vector<float>{1, 1, 1}));
 }
 
-TEST(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
+TEST_F(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
 {
-  const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
   const auto spread_of = [&](bool green) {
     Photons photons = scatter([](int, int) { return 2.0; }, 7);
     if (green)
       for (std::size_t i = 0; i < photons.rgb.size(); i += 3)
         photons.rgb[i] = photons.rgb[i + 2] = photons.error_draw[i] = photons.error_draw[i + 2] = 0;
     smoothing.spread(photons.rgb, photons.error_draw);
-    double s = 0, s2 = 0, n = 0;
-    for (int y = size / 2 + 8; y < size - 8; ++y)
-      for (int x = 8; x < size - 8; ++x) {
-        const double v = photons.rgb[3 * static_cast<std::size_t>(y * size + x) + 1];
-        s += v, s2 += v * v, n += 1;
-      }
-    return s2 / n - s * s / (n * n);
+    return moments(photons.rgb, size / 2 + 8, size - 8, 8, 1).variance;
   };
   // The mean of R, G and B is a third of G, and the mean variance a third of G's: three times the relative variance, so three times the
   // pixels.
   EXPECT_LT(spread_of(true), 0.6 * spread_of(false));
 }
 
-TEST(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
+TEST_F(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
 {
-  const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
   Photons photons = scatter([](int, int) { return 1.0; }, 5);
   photons.error_draw.clear();
   const std::vector<float> before = photons.rgb;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The statistical tests of tests/support/statistics.h: published quantiles, their false-alarm rate, and that they find what they are for.
 #include "tests/support/statistics.h"
-#include "tests/support/test.h"
 
 #include <boost/math/distributions/binomial.hpp>
 

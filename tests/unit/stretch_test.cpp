@@ -16,11 +16,8 @@ scene::Scene scene_of(const std::vector<optics::Spectrum>& curves)
 {
   scene::Scene scene;
   for (const optics::Spectrum& n : curves) {
-    scene::Material material;
-    material.type = scene::Material::Type::dielectric;
-    material.n = n;
-    scene::Object object;
-    object.material = static_cast<int>(scene.materials.size());
+    scene::Material material{.type = scene::Material::Type::dielectric, .n = n};
+    scene::Object object{.material = static_cast<int>(scene.materials.size())};
     scene.materials.push_back(material);
     scene.objects.push_back(object);
   }

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every order of three commands while a job works at an adoption: the end is what the newest of them say, and a picture is of the preset
 // that it counts as.
-#include "base/error.h"
 #include "job/worker.h"
 #include "preset/preset.h"
-#include "tests/support/eventually.h"
 #include "tests/support/test.h"
 
 #include <future>
@@ -40,9 +38,7 @@ public:
   {
     auto picture = std::make_shared<job::Picture>();
     picture->rgb = {static_cast<float>(seed_)};
-    Snapshot snapshot;
-    snapshot.picture = std::move(picture);
-    return snapshot;
+    return {.picture = std::move(picture)};
   }
   void save(ByteSink&) override {}
   void load(ByteSource&) override {}

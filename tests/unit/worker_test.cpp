@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The worker with a job that counts: every order of commands ends in a defined state, and readers never wait.
-#include "base/error.h"
 #include "job/worker.h"
-#include "tests/support/eventually.h"
 #include "tests/support/test.h"
 
 #include <future>
@@ -35,10 +33,7 @@ public:
     auto picture = std::make_shared<job::Picture>();
     picture->width = picture->height = 1;
     picture->rgb = {float(count_), 0, 0};
-    Snapshot snapshot;
-    snapshot.picture = std::move(picture);
-    snapshot.progress = progress();
-    return snapshot;
+    return {.picture = std::move(picture), .progress = progress()};
   }
   void save(ByteSink&) override {}
   void load(ByteSource&) override {}
@@ -94,24 +89,16 @@ TEST(Worker, IsIdleAtFirst)
 
 TEST(Worker, FinishesWithTheLastSnapshot)
 {
-  Worker worker;
-  worker.set_snapshot_interval(1h);
-  worker.start(counting(20));
-  EXPECT_EQ(worker.status().generation, 1u);
-  worker.wait();
-  const Status status = worker.status();
-  EXPECT_EQ(status.state, job::State::finished);
-  EXPECT_EQ(status.progress.step, 20);
-  EXPECT_EQ(worker.snapshot()->picture->rgb[0], 20);
-}
-
-TEST(Worker, AJobThatIsFinishedAtOnceIsNeverStepped)
-{
-  Worker worker;
-  worker.start(counting(0));
-  worker.wait();
-  EXPECT_EQ(worker.status().state, job::State::finished);
-  EXPECT_EQ(worker.snapshot()->picture->rgb[0], 0);
+  for (const int steps : {20, 0}) { // a job that is finished at once is never stepped
+    Worker worker;
+    worker.set_snapshot_interval(1h);
+    worker.start(counting(steps));
+    EXPECT_EQ(worker.status().generation, 1u);
+    worker.wait();
+    EXPECT_EQ(worker.status().state, job::State::finished);
+    EXPECT_EQ(worker.status().progress.step, steps);
+    EXPECT_EQ(worker.snapshot()->picture->rgb[0], float(steps));
+  }
 }
 
 TEST(Worker, SnapshotsComeAtTheirInterval)
@@ -359,6 +346,10 @@ TEST(Worker, TellsTheSpectrumOfThePixelThatIsWatched)
   EXPECT_TRUE(eventually([&] { return worker.spectrum()->layers[0].radiance[0] > first; })) << "it goes on with the run";
   worker.watch_spectrum(std::nullopt);
   EXPECT_EQ(worker.spectrum(), nullptr);
+  worker.watch_spectrum(std::array{1, 1});
+  worker.start(counting(5)); // this job has none
+  worker.wait();
+  EXPECT_EQ(worker.spectrum(), nullptr);
 }
 
 TEST(Worker, APausedAndAFinishedJobTellSpectraWithoutAnotherPicture)
@@ -383,15 +374,6 @@ TEST(Worker, APausedAndAFinishedJobTellSpectraWithoutAnotherPicture)
   EXPECT_TRUE(tells(worker, {4, 4}));
   EXPECT_EQ(worker.snapshot(), last);
   EXPECT_EQ(worker.status().state, job::State::finished);
-}
-
-TEST(Worker, AJobWithoutSpectraTellsNone)
-{
-  Worker worker;
-  worker.watch_spectrum(std::array{1, 1});
-  worker.start(counting(5));
-  worker.wait();
-  EXPECT_EQ(worker.spectrum(), nullptr);
 }
 
 TEST(Worker, ASpectrumThatFailsIsTheState)

@@ -9,7 +9,7 @@
 #include "ui/inverse/annealing/panel.h"
 #include "ui/spectral/dispersion/model.h"
 
-namespace nephroid::ui::sessions_test {
+namespace nephroid::ui::recorded_sessions_test {
 
 class SpectralSession : public test::PicturedWindow {};
 class EnvironmentSession : public test::PicturedWindow {};
@@ -205,7 +205,7 @@ TEST_F(InverseSession, FromTheStartPageToASavedMesh)
   EXPECT_EQ(after[1], first[1]);
   EXPECT_GT(after[2].distance_mm, first[2].distance_mm + 5);
 
-  const std::filesystem::path made = session.saved() / "inverse-object";
+  const fs::path made = session.saved() / "inverse-object";
   for (const char* file : {"object.obj", "object.stl", "object.ply"}) {
     const scene::MeshReport report = scene::inspect(scene::load_mesh(made / file));
     EXPECT_TRUE(report.closed()) << file;
@@ -216,4 +216,4 @@ TEST_F(InverseSession, FromTheStartPageToASavedMesh)
   EXPECT_NEAR(object(view, "receiver 3").transform.translate[2], -after[2].distance_mm, 1e-6);
 }
 
-} // namespace nephroid::ui::sessions_test
+} // namespace nephroid::ui::recorded_sessions_test
