@@ -79,7 +79,8 @@ void check_define(const std::string& name, const std::string& value)
     throw failed("-D" + name + "=" + value, "cannot be passed to a kernel compiler", "a name, and a value without spaces and quotes");
 }
 
-std::string compiler_options(const DeviceInfo& device, const Defines& defines)
+/// A definition that the source does not name is left out: programs that differ by nothing else are built once.
+std::string compiler_options(const DeviceInfo& device, const Defines& defines, const std::string& source)
 {
   std::string options = "-cl-std=CL1.2 -cl-kernel-arg-info";
   options += device.type == "cpu" ? " -DNEPHROID_CPU=1" : " -DNEPHROID_GPU=1";
@@ -87,7 +88,7 @@ std::string compiler_options(const DeviceInfo& device, const Defines& defines)
   if (device.int64_atomics) options += " -DNEPHROID_INT64_ATOMICS=1";
   for (const auto& [name, value] : defines) {
     check_define(name, value);
-    options += fmt::format(" -D{}={}", name, value);
+    if (source.find(name) != std::string::npos) options += fmt::format(" -D{}={}", name, value);
   }
   return options;
 }
@@ -149,7 +150,7 @@ Program::Program(const Context& context, const std::string& file, const Defines&
 {
   detail::ContextState& s = *context.state;
   const std::string source = detail::full_source(s.kernels, file);
-  const std::string options = compiler_options(s.info, defines);
+  const std::string options = compiler_options(s.info, defines, source);
   try {
     detail::BuiltProgram& built = s.programs[{file, options}];
     if (built.source != source) built = {source, build(s, file, source, options)};

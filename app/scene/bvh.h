@@ -26,7 +26,8 @@ struct Bvh {
   int stack = 0;                               ///< what -DNEPHROID_BVH_STACK must be at least: entries that a traversal can need at once
 };
 
-/// The -D flags of kernels that go through it.
+/// The -D flags of kernels that go through it. An object that moves changes the tree, but hardly ever these: a kernel takes a second to
+/// compile.
 std::map<std::string, std::string> tree_defines(const Bvh& bvh);
 
 /// Triangles without area are left out: nothing hits them. An empty mesh gives a tree that nothing hits.

@@ -38,7 +38,6 @@ PlanPart plan_scene(const PlanInput& input)
                   {"pixels", 2 * sizeof(std::uint32_t) * input.pixels()}}; // all, and those of glass
   part.defines = scene::tree_defines(input.bvh);
   part.defines["NEPHROID_FILM_HALVES"] = std::to_string(input.halves());
-  part.defines["NEPHROID_MAX_SURFACES"] = std::to_string(input.settings.max_surfaces);
   if (const Settings& s = input.settings; s.step_nm > 1 && s.method != Settings::Method::brute_force)
     part.notes = {fmt::format("spectral.step_nm: {} does nothing here: spectral.method is {}, and only brute_force has steps", s.step_nm,
                               preset::word(s.method))};

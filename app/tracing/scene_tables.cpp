@@ -199,6 +199,7 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   tables.scene.metres_per_unit = static_cast<float>(scene.metres_per_unit);
   // Enough from any place on the disc of any target, also of the one about everything.
   tables.scene.outside_distance = 2.5f * std::max(scene_bounds(scene).radius, leave_out.stray_photons ? 0.0f : everything(scene).radius);
+  tables.scene.max_surfaces = 32;
   return tables;
 }
 

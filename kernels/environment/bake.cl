@@ -105,7 +105,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
     bool met = false;
     int outcome = OUTCOME_LOST;
     float4 choices = (float4)(0.0f);
-    for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
+    for (int surface_number = 0; surface_number <= scene.max_surfaces; ++surface_number) {
       const Hit hit = next_hit(&world, &path);
       const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
       // What meets nothing more is outside, also of a mesh with a hole that it came in by its surface and out by the hole.
@@ -117,7 +117,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
         outcome = met ? OUTCOME_ESCAPED : OUTCOME_MISSED;
         break;
       }
-      if (surface_number == NEPHROID_MAX_SURFACES) break;
+      if (surface_number == scene.max_surfaces) break;
       met = true;
       const Surface surface = surface_at(&world.geometry, world.objects, hit);
       const DeviceMaterial material = material_of(&world, surface.object);

@@ -68,7 +68,7 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
       path->skip = hit.primitive;
       path->behind = 0.0f;
     }
-    if (surface_number == NEPHROID_MAX_SURFACES) return OUTCOME_LOST;
+    if (surface_number == world->scene.max_surfaces) return OUTCOME_LOST;
     float n_ratio;
     if (material.type != MATERIAL_DIFFUSE && !bend_path(world, path, hit.primitive, &surface, &material, &photon->band, random.x, &n_ratio))
       return OUTCOME_LOST;

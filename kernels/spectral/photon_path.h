@@ -113,7 +113,7 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
   end.left = 1.0f;
   bool met_caustic_object = false;
   float4 choices = (float4)(0.0f);
-  for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
+  for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
     const Hit hit = next_hit(world, path);
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
       end.outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
@@ -127,7 +127,7 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
       end.outcome = met_caustic_object ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
       break;
     }
-    if (surface_number == NEPHROID_MAX_SURFACES) break;
+    if (surface_number == world->scene.max_surfaces) break;
     met_caustic_object = true;
     if ((surface_number & 3) == 0) choices = random4(seed, pass, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
     float n_ratio;

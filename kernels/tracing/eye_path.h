@@ -106,7 +106,7 @@ static inline float reach_end(const World* world, Path* path, Hit* hit, const Ba
 {
   float radiance_scale = 1.0f;
   float4 choices = (float4)(0.0f);
-  for (int surface_number = 0; surface_number <= NEPHROID_MAX_SURFACES; ++surface_number) {
+  for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
     if (surface_number > 0) *hit = next_hit(world, path);
     if (hit->primitive == NEPHROID_NO_PRIMITIVE) return radiance_scale;
     *surface = surface_at(&world->geometry, world->objects, *hit);

@@ -135,7 +135,7 @@ typedef struct {
   int emitter_count;
   float metres_per_unit;
   float outside_distance; // directional photons start this far before their target: outside of everything
-  int padding;
+  int max_surfaces;       // that a path may meet before it counts as lost
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__

@@ -9,9 +9,6 @@
 #include "kernels/tracing/interface.h"
 #include "kernels/tracing/sky.h"
 
-#ifndef NEPHROID_MAX_SURFACES
-#define NEPHROID_MAX_SURFACES 32
-#endif
 #ifndef NEPHROID_MIRRORS
 #define NEPHROID_MIRRORS 1
 #endif

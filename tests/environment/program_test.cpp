@@ -18,8 +18,9 @@ class EnvironmentRun : public ProgramTest {
 protected:
   Ended run_to(const std::string& preset, const std::string& name, std::vector<std::string> more = {}) const
   {
-    more.insert(more.begin(), {"run", "environment/" + preset, "-o", name, "--set", "environment.resolution=32", "--set",
-                               "environment.photons=30000", "--set", "scene.camera.resolution=[210, 110]"});
+    more.insert(more.begin(),
+                {"run", "environment/" + preset, "-o", name, "--set", "environment.resolution=32", "--set", "environment.photons=4000",
+                 "--set", "environment.directions=26", "--set", "scene.camera.resolution=[210, 110]"});
     return run(more, test::own_cache(scratch.path() / "cache"));
   }
   json of(const std::string& file) const { return json::parse(nephroid::read_file(folder / file)); }
@@ -76,7 +77,7 @@ protected:
                 {"name": "floor", "shape": {"type": "quad", "size": [30, 1, 30]}, "material": "floor", "transform": {"translate": [0, -1.2, 0]}}],
     "environment": {"type": "constant", "colour": [1, 1, 1], "radiance": 1}
   },
-  "environment": {"photons": 8000, "spheres": 2, "resolution": 16}
+  "environment": {"directions": 26, "photons": 2000, "spheres": 2, "resolution": 16}
 })");
   }
   Ended run_to(const std::string& name, std::vector<std::string> more) const

@@ -20,7 +20,9 @@ protected:
   /// The ball on a floor under a map and a lamp, of more pixels than a step has.
   preset::Preset lit() const
   {
-    preset::Preset p = ball_and(facing_quad("floor", {0, -1.5, 0}, {0, 1, 0}, 8), {"scene.camera.resolution=[128, 96]", "stop.passes=2"});
+    preset::Preset p = ball_and(facing_quad("floor", {0, -1.5, 0}, {0, 1, 0}, 8),
+                                {"scene.camera.resolution=[128, 96]", "stop.passes=2", "environment.directions=26",
+                                 "environment.photons=4000", "environment.spheres=4", "environment.resolution=16"});
     p.scene.environment.emplace();
     p.scene.environment->file = (cache.path() / "map.exr").string();
     p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};

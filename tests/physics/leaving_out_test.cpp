@@ -49,17 +49,17 @@ TEST_P(LeavingOut, ThePlanSaysWhyAndWhatTurnsItBackOn)
 TEST_P(LeavingOut, ThePictureIsTheSame)
 {
   const Omission& o = GetParam();
+  const auto with = [&](const preset::Preset& p) { return general_job(plain(p), all_but(o), shared_context()); };
   if (o.same_bits) {
-    const job::Snapshot out = render(o.scene), in = render(*job_of(o.scene, all_but(o)));
+    const job::Snapshot out = render(*job_of(o.scene, LeaveOut{})), in = render(*with(o.scene));
     EXPECT_EQ(out.picture->rgb, in.picture->rgb);
     EXPECT_EQ(spectral::energy_of(out).deposited_w, spectral::energy_of(in).deposited_w);
     return;
   }
   preset::Preset other_seed = o.scene;
   other_seed.seed = 1000;
-  const std::vector<Estimate> out = render_passes(o.scene, caustic_blocks),
-                              in = step_passes(*job_of(other_seed, all_but(o)),
-                                               [&](job::Job&job) { return caustic_blocks(job.snapshot()); });
+  const auto blocks = [](job::Job& job) { return caustic_blocks(job.snapshot()); };
+  const std::vector<Estimate> out = step_passes(*job_of(o.scene, LeaveOut{}), blocks), in = step_passes(*with(other_seed), blocks);
   double smallest = 1, out_variance = 0, in_variance = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const Estimate difference{out[i].mean - in[i].mean, out[i].variance + in[i].variance, std::min(out[i].degrees, in[i].degrees)};

@@ -55,7 +55,7 @@ preset::Preset furnace(const std::vector<preset::Object>& things)
   spectral::settings(p).direct = true;
   spectral::settings(p).photons_per_pass = 1 << 15;
   spectral::settings(p).max_surfaces = 400;
-  p.stop.passes = 64;
+  p.stop.passes = 32;
   return p;
 }
 

@@ -14,6 +14,7 @@
 
 namespace nephroid::test {
 
+using check::general_job;
 using check::layer;
 
 /// One context for all tests of a program: opening a device takes a second.
@@ -52,9 +53,11 @@ inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const trac
   return job_as_it_is(plain(preset), leave_out, context);
 }
 
+/// With the general kernels: so all tests together build a few programs, which is most of their time. tests/physics/leaving_out_test.cpp
+/// compares them with those made for a scene.
 inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const compute::Context& context = shared_context())
 {
-  return job_of(preset, tracing::LeaveOut{.all = preset.leave_out}, context);
+  return general_job(plain(preset), {.all = preset.leave_out}, context);
 }
 
 inline job::Snapshot render(job::Job& job)

@@ -43,7 +43,7 @@ extern "C" cl_int clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kerne
 
 using Edit = std::function<void(preset::Preset&)>;
 
-const std::string environment_text = test::lamps_text("[32, 24]", R"("photons": 2048, "spheres": 2, "resolution": 16)");
+const std::string environment_text = test::lamps_text("[32, 24]", R"("directions": 26, "photons": 2048, "spheres": 2, "resolution": 16)");
 
 class FailingMemory : public testing::Test {
 protected:

@@ -82,17 +82,11 @@ scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::si
   return result;
 }
 
-compute::Defines bvh_defines(const scene::Bvh& bvh)
-{
-  return {{"NEPHROID_ELLIPSOIDS", std::to_string(int(!bvh.ellipsoid_places.empty()))},
-          {"NEPHROID_BVH_STACK", std::to_string(64 * (bvh.stack / 64 + 1))}};
-}
-
 tracing::World surroundings_world(const compute::Context& context, const scene::Scene& surroundings)
 {
   const scene::Bvh bvh = scene::build_bvh(surroundings.geometry);
   return tracing::make_world(context, surroundings, bvh, tracing::make_scene_tables(surroundings, {optics::all_wavelengths()}, {}),
-                             bvh_defines(bvh), 0);
+                             scene::tree_defines(bvh), 0);
 }
 
 } // namespace nephroid::environment

@@ -15,9 +15,6 @@ namespace nephroid::environment {
 /// Caster::objects; the others keep their order.
 scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::size_t>& caster);
 
-/// What code depends on of a tree. An object that moves changes the tree, but hardly ever these: a kernel takes a second to compile.
-compute::Defines bvh_defines(const scene::Bvh& bvh);
-
 /// The surroundings on a device, with their tree.
 /// Throws failed where the device has not enough memory.
 tracing::World surroundings_world(const compute::Context& context, const scene::Scene& surroundings);

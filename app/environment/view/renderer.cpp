@@ -338,7 +338,7 @@ void Renderer::move_objects(MovedObjects moved)
   task_.tables.camera = moved.camera;
   tracing::upload_surfaces(context_, *task_.scene, *task_.bvh, world_.buffers);
   world_.scene.root = task_.bvh->root;
-  for (const auto& [name, value] : bvh_defines(*task_.bvh)) world_.defines[name] = value;
+  for (const auto& [name, value] : scene::tree_defines(*task_.bvh)) world_.defines[name] = value;
   make_kernels();
   if (moved.surroundings) {
     task_.surroundings = std::move(*moved.surroundings);

@@ -79,16 +79,21 @@ spectral::RunTables device_tables(const preset::Preset& preset)
   return spectral::make_lit_tables(preset, scene, scene::build_bvh(scene.geometry), {});
 }
 
-job::Snapshot render(preset::Preset preset, const compute::Context& context)
+std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context)
 {
-  spectral::settings(preset).max_surfaces = 64;
-  tracing::LeaveOut leave_out;
-  leave_out.light_types = leave_out.mirrors = leave_out.bending = leave_out.attenuation = leave_out.smooth_normals = false;
+  leave_out.occlusion = leave_out.light_types = leave_out.mirrors = leave_out.bending = leave_out.attenuation = leave_out.smooth_normals =
+      false;
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   spectral::RunPlan plan = spectral::make_plan(preset, scene, bvh, leave_out);
   share_programs(plan.defines);
-  const auto job = spectral::make_job(preset, scene, bvh, plan, context);
+  return spectral::make_job(preset, scene, bvh, plan, context);
+}
+
+job::Snapshot render(preset::Preset preset, const compute::Context& context)
+{
+  spectral::settings(preset).max_surfaces = 64;
+  const auto job = general_job(preset, {}, context);
   while (!job->finished()) job->step();
   return job->snapshot();
 }

@@ -11,13 +11,17 @@
 #include "spectral/energy.h"
 #include "spectral/tables/run_tables.h"
 
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace nephroid::check {
 
-/// Runs engine 1 to the preset's end, with the general kernels rather than those made for the scene: so all checks together build two
-/// programs, which is most of their time on a device whose compiler has not seen them. Tests compare the two kinds.
+/// A run of engine 1 with the general kernels rather than those made for the scene: so all checks together build two programs, which is
+/// most of their time on a device whose compiler has not seen them. Tests compare the two kinds. leave_out: of what is no kernel's code.
+std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context);
+
+/// general_job to the preset's end.
 job::Snapshot render(preset::Preset preset, const compute::Context& context);
 
 /// The tables that the engine would render the preset with.

@@ -54,6 +54,7 @@ RunTables make_lit_tables(const preset::Preset& preset, const scene::Scene& scen
   tables.importance = std::move(shares.importance);
   tables.photons_per_pass = count_photons(tables.emitters);
   tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass);
+  tables.scene.max_surfaces = spectral::settings(preset).max_surfaces;
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
   set_scales(scene, spectral::settings(preset).pixel_samples, tables);
   return tables;
