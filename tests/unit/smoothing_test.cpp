@@ -72,7 +72,7 @@ Moments moments(const std::vector<float>& rgb, int from, int to, int margin)
 TEST(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
 {
   const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
+  spectral::Smoothing smoothing(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int, int) { return 2.0; }, 1);
   const double power = sum(photons.rgb);
   const Moments before = moments(photons.rgb, size / 2 + 8, size - 8, 8);
@@ -91,7 +91,7 @@ TEST(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
 TEST(Smoothing, leaves_pixels_that_hold_enough_photons_alone)
 {
   const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
+  spectral::Smoothing smoothing(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int, int) { return 400.0; }, 2);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -102,7 +102,7 @@ TEST(Smoothing, does_not_carry_light_from_one_surface_to_another)
 {
   const FloorAndWall room;
   // Where the wall meets the floor: y = 0, z = -2 is the middle row.
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
+  spectral::Smoothing smoothing(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int, int y) { return y >= size / 2 ? 1.0 : 0.0; }, 3);
   smoothing.spread(photons.rgb, photons.error_draw);
   const auto row_sum = [&](int y) {
@@ -117,7 +117,7 @@ TEST(Smoothing, leaves_even_light_even_where_kernels_are_cut)
   // Where the two surfaces meet and at the picture's sides kernels are cut. Were a pixel's light just shared out evenly, the outermost
   // row would keep some 70 % of its light and the row that is a kernel away have 120 %.
   const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
+  spectral::Smoothing smoothing(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere);
   constexpr double density = 0.25;
   constexpr unsigned pictures = 200;
   std::vector<double> rows(size), columns(size);
@@ -140,7 +140,7 @@ TEST(Smoothing, leaves_even_light_even_where_kernels_are_cut)
 TEST(Smoothing, keeps_the_light_of_an_outline_in_it)
 {
   const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
+  spectral::Smoothing smoothing(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere);
   // The floor's last row before the wall may hold light of both: it stays in that row.
   Photons photons = scatter([](int, int y) { return y == size / 2 ? 1.0 : 0.0; }, 8);
   const std::vector<float> before = photons.rgb;
@@ -176,7 +176,7 @@ scene::Scene two_walls(const preset::Object& between, double wall_height)
 /// Where photons are on the right alone they stay there, and are spread.
 void expect_no_light_on_the_left(const scene::Scene& scene)
 {
-  spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), true);
+  spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), spectral::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int x, int) { return x >= size / 2 ? 1.0 : 0.0; }, 9);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -208,7 +208,7 @@ TEST(Smoothing, spreads_within_curved_glass)
   ball.transform.scale = {8, 8, 8};
   ball.transform.translate = {0, -4, 0};
   const scene::Scene scene = two_walls(ball, -20);
-  spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), true);
+  spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), spectral::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int, int) { return 1.0; }, 11);
   const double variance = moments(photons.rgb, 16, size - 16, 16).variance, power = sum(photons.rgb);
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -222,7 +222,7 @@ TEST(Smoothing, spreads_within_curved_glass)
 TEST(Smoothing, draws_how_far_light_was_moved)
 {
   const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
+  spectral::Smoothing smoothing(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere);
   const auto stripes = [](int x, int) { return x % 6 < 3 ? 3.0 : 0.0; };
   double drawn = 0, error = 0;
   for (unsigned seed = 100; seed < 132; ++seed) {
@@ -285,7 +285,7 @@ TEST(Smoothing, goes_by_what_it_gains)
 TEST(Smoothing, keeps_a_bright_line_sharp_on_a_dim_floor)
 {
   const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
+  spectral::Smoothing smoothing(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int x, int) { return x == size / 2 ? 1000.0 : 1.0; }, 4);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -312,7 +312,7 @@ TEST(Smoothing, leaves_a_picture_of_one_pixel_alone)
 TEST(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
 {
   const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
+  spectral::Smoothing smoothing(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere);
   const auto spread_of = [&](bool green) {
     Photons photons = scatter([](int, int) { return 2.0; }, 7);
     if (green)
@@ -335,7 +335,7 @@ TEST(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
 TEST(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
 {
   const FloorAndWall room;
-  spectral::Smoothing smoothing(room.scene, room.bvh, true);
+  spectral::Smoothing smoothing(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int, int) { return 1.0; }, 5);
   photons.error_draw.clear();
   const std::vector<float> before = photons.rgb;
