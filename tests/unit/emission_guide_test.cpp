@@ -6,7 +6,7 @@
 #include "spectral/effort/emitters.h"
 #include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"
-#include "spectral/sampled_pixels.h"
+#include "spectral/sight.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"

@@ -247,7 +247,8 @@ template <class Density>
 Errors errors_of(const Density& density)
 {
   const FloorAndWall room;
-  spectral::Smoothing everywhere(room.scene, room.bvh, true), by_gain(room.scene, room.bvh, false);
+  spectral::Smoothing everywhere(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere),
+      by_gain(room.scene, room.bvh, spectral::Smoothing::Spread::where_it_helps);
   const auto add_error = [&](const std::vector<float>& rgb, double& sum) {
     for (int y = size / 2 + 8; y < size - 8; ++y)
       for (int x = 8; x < size - 8; ++x) sum += std::pow(rgb[3 * static_cast<std::size_t>(y * size + x)] - density(x, y), 2);
@@ -304,7 +305,7 @@ TEST(Smoothing, leaves_a_picture_of_one_pixel_alone)
   p.scene.camera.resolution = {1, 1};
   const scene::Scene scene = scene::load_scene(p);
   std::vector<float> rgb{3, -1, 2}, draw{1, 1, 1};
-  spectral::Smoothing(scene, scene::build_bvh(scene.geometry), true).spread(rgb, draw);
+  spectral::Smoothing(scene, scene::build_bvh(scene.geometry), spectral::Smoothing::Spread::everywhere).spread(rgb, draw);
   EXPECT_EQ(rgb, (std::vector<float>{3, -1, 2}));
   EXPECT_EQ(draw, (std::vector<float>{1, 1, 1}));
 }
