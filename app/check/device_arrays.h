@@ -6,9 +6,6 @@
 
 #include <array>
 #include <initializer_list>
-#include <span>
-#include <string>
-#include <vector>
 
 namespace nephroid::check {
 
@@ -18,20 +15,6 @@ inline shared::uint2 device_seed(std::uint64_t seed) { return {static_cast<std::
 
 /// As the engine's kernels: a device that cannot run groups of so many cannot run those.
 inline constexpr std::size_t local_size = 64;
-
-template <class T>
-compute::Buffer<T> on_device(const compute::Context& context, const char* name, const std::vector<T>& items)
-{
-  return compute::Buffer<T>(context, name, std::span<const T>(items));
-}
-
-template <class T>
-compute::Buffer<T> zeros(const compute::Context& context, const char* name, std::size_t count)
-{
-  compute::Buffer<T> buffer(context, name, count);
-  buffer.fill_zero();
-  return buffer;
-}
 
 /// Kernel `name` of a file over `count` items, which is its argument "count"; the others are given.
 inline void run_over(const compute::Context& context, const char* name, std::size_t count, std::initializer_list<compute::Argument> own,

@@ -41,8 +41,9 @@ Result published_vectors(const compute::Context& context, std::uint64_t)
                                      {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd},
                                      {0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}};
   const compute::Buffer<Block> out(context, "results", counters.size());
-  run_over(context, "philox", counters.size(),
-           {{"counters", on_device(context, "counters", counters)}, {"keys", on_device(context, "keys", keys)}, {"results", out}});
+  run_over(
+      context, "philox", counters.size(),
+      {{"counters", compute::Buffer(context, "counters", counters)}, {"keys", compute::Buffer(context, "keys", keys)}, {"results", out}});
   const std::vector<Block> got = out.read();
   double wrong = 0;
   for (std::size_t i = 0; i < got.size(); ++i)
@@ -82,9 +83,9 @@ Result sums(const compute::Context& context, std::uint64_t seed, bool halves)
     truth[static_cast<std::size_t>(where[i])] += values[i];
   }
   const compute::Defines defines = halves ? compute::Defines{{"NEPHROID_CHECK_HALVES", "1"}} : compute::Defines{};
-  const compute::Buffer<std::int64_t> out = zeros<std::int64_t>(context, "sums", places);
+  const compute::Buffer<std::int64_t> out = compute::zeroed<std::int64_t>(context, "sums", places);
   run_over(context, "add_all", count,
-           {{"values", on_device(context, "values", values)}, {"places", on_device(context, "places", where)}, {"sums", out}},
+           {{"values", compute::Buffer(context, "values", values)}, {"places", compute::Buffer(context, "places", where)}, {"sums", out}},
            "check/check_sums.cl", defines);
   const std::vector<std::int64_t> got = out.read();
   double worst = 0;
@@ -113,9 +114,9 @@ Result film_limit(const compute::Context& context, std::uint64_t)
                         {{-0.4f, 0.5f, 2.5f, 1}, 1, {0, 0, 2}}};
   std::vector<float4> in;
   for (const Case& c : cases) in.push_back(c.xyz_scale);
-  const compute::Buffer<std::int64_t> film = zeros<std::int64_t>(context, "film", 3 * in.size());
+  const compute::Buffer<std::int64_t> film = compute::zeroed<std::int64_t>(context, "film", 3 * in.size());
   const compute::Buffer<std::int32_t> accepted(context, "accepted", in.size());
-  run_over(context, "add_to_film", in.size(), {{"xyz_scale", on_device(context, "in", in)}, {"film", film}, {"accepted", accepted}},
+  run_over(context, "add_to_film", in.size(), {{"xyz_scale", compute::Buffer(context, "in", in)}, {"film", film}, {"accepted", accepted}},
            "check/check_sums.cl");
   const auto sums = film.read();
   const auto answers = accepted.read();

@@ -140,7 +140,7 @@ Result no_leaks(const compute::Context& context, std::uint64_t seed)
     rays.push_back({.origin = from, .direction = glm::normalize(aim - from)});
   }
   const std::vector<Hit> hits = KernelTracer(context, mesh).closest(rays);
-  const auto escaped = std::count_if(hits.begin(), hits.end(), [](const Hit& h) { return h.primitive == no_primitive; });
+  const auto escaped = std::ranges::count_if(hits, [](const Hit& h) { return h.primitive == no_primitive; });
   return judged(static_cast<double>(escaped), 0, "rays",
                 fmt::format("of {} rays from inside at vertices and edges of a closed mesh, those that got out", rays.size()));
 }

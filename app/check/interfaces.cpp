@@ -24,7 +24,7 @@ constexpr float indices[] = {1, 1.0001f, 1.33f, 1.5f, 1.9f, 2.42f, 4};
 std::vector<float4> through(const compute::Context& context, const char* kernel, const std::vector<float4>& in, std::size_t outputs_each)
 {
   const compute::Buffer<float4> out(context, "out", in.size() * outputs_each);
-  run_over(context, kernel, in.size(), {{"in", on_device(context, "in", in)}, {"out", out}});
+  run_over(context, kernel, in.size(), {{"in", compute::Buffer(context, "in", in)}, {"out", out}});
   return out.read();
 }
 
@@ -161,8 +161,8 @@ Result nested_media(const compute::Context& context, std::uint64_t seed)
   }
   const compute::Buffer<int> out(context, "mediums", steps.size());
   run_over(context, "media_walks", walks,
-           {{"objects", on_device(context, "objects", objects)},
-            {"steps", on_device(context, "steps", steps)},
+           {{"objects", compute::Buffer(context, "objects", objects)},
+            {"steps", compute::Buffer(context, "steps", steps)},
             {"mediums", out},
             {"steps_each", steps_each}});
   const std::vector<int> got = out.read();

@@ -27,7 +27,7 @@ void KernelTracer::set_rays(const std::vector<Ray>& rays)
   std::vector<DeviceRay> packed;
   for (const Ray& r : rays)
     packed.push_back({{r.origin.x, r.origin.y, r.origin.z}, r.t_max, {r.direction.x, r.direction.y, r.direction.z}, r.skip});
-  rays_ = {context_, "rays", std::span<const DeviceRay>(packed)};
+  rays_ = {context_, "rays", packed};
   hits_ = {context_, "hits", rays.size()};
   found_ = {context_, "found", rays.size()};
 }

@@ -118,6 +118,17 @@ public:
 private:
   std::size_t count_ = 0;
 };
+template <class T>
+Buffer(const Context&, const char*, const std::vector<T>&) -> Buffer<T>;
+
+/// The same, all 0.
+template <class T>
+Buffer<T> zeroed(const Context& context, std::string name, std::size_t count)
+{
+  Buffer<T> buffer(context, std::move(name), count);
+  buffer.fill_zero();
+  return buffer;
+}
 
 /// What OpenCL C calls a type of the host: "uint", "float4" for std::array<float, 4>, "DeviceLight" for a struct, which has the same name
 /// on both sides.

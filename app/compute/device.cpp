@@ -49,7 +49,7 @@ std::vector<cl::Platform> platforms()
 
 bool matches(const DeviceInfo& info, const std::string& selector)
 {
-  const bool number = std::all_of(selector.begin(), selector.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+  const bool number = std::ranges::all_of(selector, [](unsigned char c) { return std::isdigit(c) != 0; });
   if (number) return std::to_string(info.index) == selector;
   return lower_case(info.name).find(lower_case(selector)) != std::string::npos;
 }
@@ -57,7 +57,7 @@ bool matches(const DeviceInfo& info, const std::string& selector)
 detail::Device choose(const std::vector<detail::Device>& devices, const std::string& selector)
 {
   if (selector.empty()) {
-    const auto gpu = std::find_if(devices.begin(), devices.end(), [](const detail::Device& d) { return d.info.type == "gpu"; });
+    const auto gpu = std::ranges::find_if(devices, [](const detail::Device& d) { return d.info.type == "gpu"; });
     return gpu != devices.end() ? *gpu : devices.front();
   }
   for (const detail::Device& device : devices)

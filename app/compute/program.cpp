@@ -74,7 +74,7 @@ struct Joiner {
 void check_define(const std::string& name, const std::string& value)
 {
   const auto in_name = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-  const bool identifier = !name.empty() && std::all_of(name.begin(), name.end(), in_name) && !(name.front() >= '0' && name.front() <= '9');
+  const bool identifier = !name.empty() && std::ranges::all_of(name, in_name) && !(name.front() >= '0' && name.front() <= '9');
   if (!identifier || value.find_first_of(" \t\n\v\f\r\"'\\") != std::string::npos)
     throw failed("-D" + name + "=" + value, "cannot be passed to a kernel compiler", "a name, and a value without spaces and quotes");
 }
@@ -149,7 +149,7 @@ detail::KernelState::Parameter parameter_of(const cl::Kernel& kernel, cl_uint in
 Program::Program(const Context& context, const std::string& file, const Defines& defines)
 {
   detail::ContextState& s = *context.state;
-  const std::string source = detail::full_source(s.kernels, file);
+  const std::string source = kernel_source(context, file);
   const std::string options = compiler_options(s.info, defines, source);
   try {
     detail::BuiltProgram& built = s.programs[{file, options}];
@@ -179,13 +179,6 @@ Kernel Program::kernel(const std::string& name) const
   return kernel;
 }
 
-std::string detail::full_source(const fs::path& folder, const std::string& file)
-{
-  Joiner joiner{folder};
-  joiner.add(file, "kernels");
-  return joiner.text;
-}
-
 std::string kernel_sources(const Context& context, std::string_view folder)
 {
   const fs::path& kernels = context.state->kernels;
@@ -207,7 +200,12 @@ std::string kernel_sources(const Context& context, std::string_view folder)
   return all;
 }
 
-std::string kernel_source(const Context& context, const std::string& file) { return detail::full_source(context.state->kernels, file); }
+std::string kernel_source(const Context& context, const std::string& file)
+{
+  Joiner joiner{context.state->kernels};
+  joiner.add(file, "kernels");
+  return joiner.text;
+}
 
 KernelTimes kernel_times(const fs::path& folder)
 {

@@ -76,10 +76,6 @@ Error buffers_failed(const cl::Error& error, const Place& where, const DeviceInf
 
 std::string megabytes(std::uint64_t bytes);
 
-/// The whole text of `file` for the compiler, every #include "NAME" of another kernel source put in its place, once each.
-/// Sources come from `folder`, or from the program itself where that is empty.
-std::string full_source(const std::filesystem::path& folder, const std::string& file);
-
 /// Why PoCL cannot keep its kernels in the folder that it will use; empty where it can.
 std::string kernel_cache_problem();
 

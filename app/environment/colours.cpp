@@ -3,6 +3,7 @@
 
 #include "optics/colour.h"
 #include "tracing/scales.h"
+#include "tracing/scene_tables.h"
 
 #include <glm/glm.hpp>
 
@@ -14,7 +15,7 @@ namespace {
 shared::float4 to_rgb(const optics::Colour& xyz)
 {
   const optics::Colour rgb = optics::xyz_to_linear_srgb(xyz);
-  return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]), 0};
+  return tracing::to_float4({rgb[0], rgb[1], rgb[2]});
 }
 
 } // namespace
@@ -31,10 +32,7 @@ std::vector<shared::float4> white_light()
     return glm::dvec3(rgb[0], rgb[1], rgb[2]);
   };
   for (int w = 0; w < optics::wavelength_count; ++w) sum += colour_of(w);
-  for (int w = 0; w < optics::wavelength_count; ++w) {
-    const glm::dvec3 rgb = colour_of(w) / sum;
-    light.push_back({static_cast<float>(rgb.x), static_cast<float>(rgb.y), static_cast<float>(rgb.z), 0});
-  }
+  for (int w = 0; w < optics::wavelength_count; ++w) light.push_back(tracing::to_float4(colour_of(w) / sum));
   return light;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/engine.h"
 
+#include "environment/checks.h"
+
 namespace nephroid::environment {
 namespace {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Engine 2, caustics under environment light (thesis chapter 3): what glass and mirrors do to light is baked once, from a few directions.
 #pragma once
-#include "check/check.h"
 #include "compute/compute.h"
 #include "engine/engine.h"
 #include "environment/bake/baker.h"
@@ -46,8 +45,5 @@ preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& 
 
 /// The preset with objects turned and moved as in another.
 preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset& other);
-
-/// For `nephroid check`, through the kernels that bake.
-std::vector<check::Check> closed_forms();
 
 } // namespace nephroid::environment

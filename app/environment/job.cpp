@@ -2,8 +2,8 @@
 // A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
 #include "base/error.h"
 #include "base/hashed_bytes.h"
-#include "environment/bake/bake_file.h"
-#include "environment/bake/own_directions.h"
+#include "environment/bake/bake.h"
+#include "environment/bake/baker.h"
 #include "environment/engine.h"
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
@@ -103,6 +103,7 @@ public:
     snapshot.phases = {{"bake", bake_seconds_}};
     if (render_) snapshot.phases.emplace_back("render", render_seconds_);
     if (renderer_) snapshot.phases.emplace_back("caustics", caustics_->seconds() - caustics_seconds_before_);
+    snapshot.scalars = {{"bake", "from_file", from_file_ ? 1.0 : 0.0}};
     add_figures(bake, snapshot);
     if (renderer_) add_lights(snapshot);
     return snapshot;
@@ -352,32 +353,6 @@ private:
                                              sum > 0 ? (left.x + left.y + left.z) / sum : 1});
     }
     snapshot.scalars.push_back({"lights", "count", static_cast<double>(lights.size())});
-  }
-
-  void add_figures(const Bake& bake, job::Snapshot& snapshot) const
-  {
-    snapshot.curves.push_back({"directions", {"direction", "x", "y", "z", "met", "sent", "absorbed", "lost"}, {}});
-    BakedDirection sum;
-    for (std::size_t i = 0; i < bake.baked.size(); ++i) {
-      const BakedDirection& d = bake.baked[i];
-      const glm::dvec3& way = bake.directions[i];
-      snapshot.curves.back().rows.push_back({static_cast<double>(i + 1), way.x, way.y, way.z, d.met, d.sent, d.absorbed, d.lost});
-      sum.met += d.met;
-      sum.sent += d.sent;
-      sum.absorbed += d.absorbed;
-      sum.lost += d.lost;
-    }
-    snapshot.scalars = {{"bake", "from_file", from_file_ ? 1.0 : 0.0},
-                        {"bake", "size", bake.size},
-                        {"bake", "smallest_radius", bake.radii.front()},
-                        {"bake", "largest_radius", bake.radii.back()},
-                        {"bake", "channels", static_cast<double>(bake.channels)},
-                        {"bake", "bytes", static_cast<double>((bake.halves.size() + bake.ways.size()) * sizeof(std::uint16_t))}};
-    if (sum.met <= 0) return;
-    snapshot.scalars.insert(snapshot.scalars.end(), {{"energy", "met", sum.met / static_cast<double>(bake.baked.size())},
-                                                     {"energy", "sent", sum.sent / sum.met},
-                                                     {"energy", "absorbed", sum.absorbed / sum.met},
-                                                     {"energy", "lost", sum.lost / sum.met}});
   }
 
   preset::Preset preset_; ///< the newest

@@ -2,7 +2,7 @@
 // What engine 2 runs for a preset and what it leaves out.
 #include "plan/plan.h"
 
-#include "environment/bake/bake_file.h"
+#include "environment/bake/bake.h"
 #include "environment/describe_settings.h"
 #include "environment/engine.h"
 #include "environment/occlusion/samples.h"
@@ -82,17 +82,16 @@ std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTa
 
 std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake, const Settings& settings)
 {
-  const auto bytes_of = [](const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); };
   const scene::Scene& s = *render.scene;
-  const std::uint64_t sky = s.environment ? bytes_of(s.environment->rgb) : 0;
+  const std::uint64_t sky = s.environment ? tracing::bytes_of(s.environment->rgb) : 0;
   return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), own_directions(settings), bake.own_radii, settings.technique)},
-          {"whole scene", tracing::tree_bytes(*render.bvh) + bytes_of(s.geometry.triangles) + bytes_of(s.geometry.positions) +
-                              bytes_of(s.geometry.normals)},
+          {"whole scene", tracing::tree_bytes(*render.bvh) + tracing::bytes_of(s.geometry.triangles) +
+                              tracing::bytes_of(s.geometry.positions) + tracing::bytes_of(s.geometry.normals)},
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
           {"receivers", Renderer::receiver_bytes()},
           {"paths of the view", Renderer::bytes_a_pixel(render) * s.camera.pixels()},
           {"medium", render.has_medium ? Renderer::medium_bytes(bake.empty_bake()) : 0},
-          {"environment (host)", 2 * sky + bytes_of(render.cube.flux), true}};
+          {"environment (host)", 2 * sky + tracing::bytes_of(render.cube.flux), true}};
 }
 
 std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::Scene& scene, bool bakes)

@@ -103,6 +103,32 @@ std::shared_ptr<const job::Picture> spheres_picture(const Bake& bake, std::size_
   return picture;
 }
 
+void add_figures(const Bake& bake, job::Snapshot& snapshot)
+{
+  snapshot.curves.push_back({"directions", {"direction", "x", "y", "z", "met", "sent", "absorbed", "lost"}, {}});
+  BakedDirection sum;
+  for (std::size_t i = 0; i < bake.baked.size(); ++i) {
+    const BakedDirection& d = bake.baked[i];
+    const glm::dvec3& way = bake.directions[i];
+    snapshot.curves.back().rows.push_back({static_cast<double>(i + 1), way.x, way.y, way.z, d.met, d.sent, d.absorbed, d.lost});
+    sum.met += d.met;
+    sum.sent += d.sent;
+    sum.absorbed += d.absorbed;
+    sum.lost += d.lost;
+  }
+  snapshot.scalars.insert(snapshot.scalars.end(),
+                          {{"bake", "size", bake.size},
+                           {"bake", "smallest_radius", bake.radii.front()},
+                           {"bake", "largest_radius", bake.radii.back()},
+                           {"bake", "channels", static_cast<double>(bake.channels)},
+                           {"bake", "bytes", static_cast<double>((bake.halves.size() + bake.ways.size()) * sizeof(std::uint16_t))}});
+  if (sum.met <= 0) return;
+  snapshot.scalars.insert(snapshot.scalars.end(), {{"energy", "met", sum.met / static_cast<double>(bake.baked.size())},
+                                                   {"energy", "sent", sum.sent / sum.met},
+                                                   {"energy", "absorbed", sum.absorbed / sum.met},
+                                                   {"energy", "lost", sum.lost / sum.met}});
+}
+
 std::uint64_t picture_bytes(const BakeTask& task)
 {
   const auto shown = [](std::size_t count) { return std::min<std::uint64_t>(count, most_cells); };

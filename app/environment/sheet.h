@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the baked spheres look like: E r^2 of each in latitude and longitude, as environments are (scene/environment.h).
+// What a snapshot has of baked spheres: what they look like, E r^2 of each in latitude and longitude, as environments are
+// (scene/environment.h).
 #pragma once
 #include "environment/bake/baker.h"
 #include "job/job.h"
@@ -24,6 +25,9 @@ std::shared_ptr<const job::Picture> sheet(const Bake& bake, const Shown& shown, 
 /// Of a baked direction: its shown spheres as layers, 512 x 256 pixels, and their sum.
 std::shared_ptr<const job::Picture> spheres_picture(const Bake& bake, std::size_t direction, const std::vector<std::size_t>& spheres,
                                                     double white);
+
+/// The curve "directions" and the scalars of a bake: how large it is, and where its light goes.
+void add_figures(const Bake& bake, job::Snapshot& snapshot);
 
 /// That all of spheres_picture take, at most.
 std::uint64_t picture_bytes(const BakeTask& task);

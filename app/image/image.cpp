@@ -127,13 +127,11 @@ struct Layout {
 Layout layout_of(const Image& picture, const std::string& name)
 {
   const auto& channels = picture.channels;
-  const auto index = [&](const char* channel) {
-    return static_cast<std::size_t>(std::find(channels.begin(), channels.end(), channel) - channels.begin());
-  };
+  const auto index = [&](const char* channel) { return static_cast<std::size_t>(std::ranges::find(channels, channel) - channels.begin()); };
   const Layout colour{{index("R"), index("G"), index("B")}, false};
-  if (std::all_of(colour.at.begin(), colour.at.end(), [&](std::size_t i) { return i < channels.size(); })) return colour;
+  if (std::ranges::all_of(colour.at, [&](std::size_t i) { return i < channels.size(); })) return colour;
   const std::size_t y = index("Y");
-  if (y < channels.size() && std::all_of(channels.begin(), channels.end(), [](const std::string& c) { return c == "Y" || c == "A"; }))
+  if (y < channels.size() && std::ranges::all_of(channels, [](const std::string& c) { return c == "Y" || c == "A"; }))
     return {{y, y, y}, true};
   throw bad_input(name, fmt::format("has the channels {}", fmt::join(channels, ", ")), "expected R, G, B or Y alone");
 }
@@ -233,7 +231,7 @@ unsigned char shown(float linear, float exposure_scale)
   static const std::array<float, 255> thresholds = code_thresholds();
   const float value = linear * exposure_scale;
   if (std::isnan(value)) return 0;
-  return static_cast<unsigned char>(std::upper_bound(thresholds.begin(), thresholds.end(), value) - thresholds.begin());
+  return static_cast<unsigned char>(std::ranges::upper_bound(thresholds, value) - thresholds.begin());
 }
 
 } // namespace nephroid::image

@@ -46,7 +46,7 @@ void require_no_negative_power(std::span<const Row> rows)
 /// A column by its name. Throws bad_input that lists the known names.
 LinearTable column(const Table& table, const char* kind, const std::string& name)
 {
-  const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+  const auto found = std::ranges::find(table.columns, name);
   if (found != table.columns.end()) return LinearTable(table.rows(static_cast<std::size_t>(found - table.columns.begin())));
   const std::string near = nearest(name, table.columns);
   throw bad_input({}, fmt::format("no {} is called \"{}\"", kind, name), fmt::format("expected one of {}", fmt::join(table.columns, ", ")),

@@ -53,7 +53,7 @@ std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const P
   if (rows.empty()) throw bad_input(where, "the table is empty", "expected at least one row of (wavelength in nm, value)");
   for (const Row& row : rows) check_row(row, where);
   std::vector<Row> sorted(rows.begin(), rows.end());
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Row& a, const Row& b) { return a[0] < b[0]; });
+  std::ranges::stable_sort(sorted, [](const Row& a, const Row& b) { return a[0] < b[0]; });
 
   std::vector<Row> unique;
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
@@ -108,7 +108,7 @@ std::vector<Row> Table::rows(std::size_t column) const
 Table read_table(std::string_view name)
 {
   const auto& all = embedded_tables();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const EmbeddedTable& t) { return t.name == name; });
+  const auto found = std::ranges::find_if(all, [&](const EmbeddedTable& t) { return t.name == name; });
   if (found == all.end()) throw failed(std::string(name), "no such built-in table");
 
   Table table;

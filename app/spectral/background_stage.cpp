@@ -20,11 +20,6 @@ namespace {
 using optics::Spectrum;
 using optics::wavelength_count;
 
-shared::float4 to_float4(const optics::Colour& xyz)
-{
-  return {static_cast<float>(xyz[0]), static_cast<float>(xyz[1]), static_cast<float>(xyz[2]), 0};
-}
-
 optics::Colour one_wavelength(const Spectrum& spectrum, std::size_t w)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
@@ -48,10 +43,13 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
   for (std::size_t w = 0; w < weights.size(); ++w)
     for (const Spectrum& primary : optics::primary_spectra()) {
       const optics::Colour xyz = one_wavelength(primary, w);
-      tables.primary_xyz.push_back(to_float4(xyz));
+      tables.primary_xyz.push_back(tracing::to_float4({xyz[0], xyz[1], xyz[2]}));
       weights[w] += tracing::worth((xyz[0] + xyz[1] + xyz[2]) / 3, primary[w]);
     }
-  for (const Spectrum& primary : optics::primary_spectra()) tables.primary_xyz.push_back(to_float4(optics::to_xyz(primary)));
+  for (const Spectrum& primary : optics::primary_spectra()) {
+    const optics::Colour xyz = optics::to_xyz(primary);
+    tables.primary_xyz.push_back(tracing::to_float4({xyz[0], xyz[1], xyz[2]}));
+  }
   tables.spectrum_cdf = tracing::exact_cdf(weights);
   // 2^24 quanta for a mean texel; all samples of a pixel together cannot leave 63 bits.
   const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) / static_cast<double>(environment.rgb.size());
@@ -63,10 +61,10 @@ BackgroundTables make_background_tables(const scene::Environment& environment, i
 /// Whether no glass that an object is of bends one wavelength otherwise than another.
 bool goes_one_way(const scene::Scene& scene)
 {
-  return std::none_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+  return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
     const scene::Material& material = material_of(scene, object);
     const auto same = [&](double n) { return n == material.n.front(); };
-    return material.type == scene::Material::Type::dielectric && !std::all_of(material.n.begin(), material.n.end(), same);
+    return material.type == scene::Material::Type::dielectric && !std::ranges::all_of(material.n, same);
   });
 }
 
@@ -75,10 +73,10 @@ public:
   BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : EyeStage(world, "background", settings), radiance_(scene.environment->radiance),
         tables_(make_background_tables(*scene.environment, settings.pixel_samples)),
-        texels_(tracing::upload_vector(world.context, "environment", scene.environment->rgb)),
-        primary_xyz_(tracing::upload_vector(world.context, "colours of the primaries", tables_.primary_xyz)),
-        wavelengths_(tracing::upload_vector(world.context, "wavelengths", optics::all_wavelengths())),
-        spectrum_cdf_(tracing::upload_vector(world.context, "wavelengths of the environment", tables_.spectrum_cdf))
+        texels_(compute::Buffer(world.context, "environment", scene.environment->rgb)),
+        primary_xyz_(compute::Buffer(world.context, "colours of the primaries", tables_.primary_xyz)),
+        wavelengths_(compute::Buffer(world.context, "wavelengths", optics::all_wavelengths())),
+        spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf))
   {
     compute::Defines defines = world.defines;
     defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own

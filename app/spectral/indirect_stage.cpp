@@ -72,8 +72,8 @@ public:
   IndirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), tables_(make_indirect_tables(scene, world.tables, static_cast<unsigned>(settings.indirect_photons_per_pass))),
         everything_(world.context, "target of indirect light", std::span<const shared::DeviceTarget>(&tables_.everything, 1)),
-        emitters_(world.context, "emitters of indirect light", std::span<const shared::DeviceEmitter>(tables_.emitters)),
-        spectrum_cdf_(world.context, "wavelengths of indirect light", std::span<const float>(tables_.spectrum_cdf)),
+        emitters_(world.context, "emitters of indirect light", tables_.emitters),
+        spectrum_cdf_(world.context, "wavelengths of indirect light", tables_.spectrum_cdf),
         film_(world.zeroed("film indirect", world.film_size())), energy_(world.zeroed("energy of indirect light", OUTCOME_COUNT))
   {
     compute::Defines defines = world.photon_defines();
@@ -87,23 +87,18 @@ public:
 
   bool step(std::int64_t pass) override
   {
-    return slices_.step(tables_.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
-      world_.run_photons(kernel_, count,
-                         {{"everything", everything_},
-                          {"emitters", emitters_},
-                          {"emitter_count", static_cast<int>(tables_.emitters.size())},
-                          {"spectrum_cdf", spectrum_cdf_},
-                          {"film", film_},
-                          {"energy", energy_},
-                          {"camera", world_.tables.camera},
-                          {"seed", world_.seed},
-                          {"pass", static_cast<std::uint32_t>(pass)},
-                          {"offset", offset},
-                          {"stride", stride},
-                          {"count", count},
-                          {"outside_distance", tables_.outside_distance},
-                          {"film_scale", world_.on_device(tables_.film_scale)},
-                          {"energy_scale", world_.on_device(tables_.energy_scale)}});
+    return slices_.step(tables_.photons_per_pass, [&](const tracing::Slice& slice) {
+      world_.send(kernel_, slice, pass,
+                  {{"everything", everything_},
+                   {"emitters", emitters_},
+                   {"emitter_count", static_cast<int>(tables_.emitters.size())},
+                   {"spectrum_cdf", spectrum_cdf_},
+                   {"film", film_},
+                   {"energy", energy_},
+                   {"seed", world_.seed},
+                   {"outside_distance", tables_.outside_distance},
+                   {"film_scale", world_.on_device(tables_.film_scale)},
+                   {"energy_scale", world_.on_device(tables_.energy_scale)}});
     });
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The job of engine 1: passes, in each of which every stage has its turn, step by step.
 #include "spectral/engine.h"
-#include "spectral/relight/relighting.h"
+#include "spectral/relight/layer_film.h"
 #include "spectral/sampled_pixels.h"
 #include "spectral/smoothing.h"
 #include "spectral/stage.h"
@@ -35,7 +35,7 @@ PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene&
   std::vector<std::uint32_t> pixels(lists.count);
   std::iota(pixels.begin(), pixels.end(), 0);
   pixels.insert(pixels.end(), lists.glass.begin(), lists.glass.end());
-  lists.on_device = tracing::upload_vector(context, "pixels", pixels);
+  lists.on_device = compute::Buffer(context, "pixels", pixels);
   return lists;
 }
 
@@ -55,11 +55,13 @@ public:
         preset_(preset), stop_seconds_(preset.stop.seconds)
   {
     const Settings& settings = spectral::settings(preset_);
-    if (plan.runs(smoothing_part)) smoothing_.emplace(scene, bvh, settings.smoothing == Settings::Smoothing::on);
+    if (plan.runs(smoothing_part))
+      smoothing_.emplace(scene, bvh,
+                         settings.smoothing == Settings::Smoothing::on ? Smoothing::Spread::everywhere : Smoothing::Spread::where_it_helps);
     shares_work_ = settings.effort == Settings::Effort::automatic && !settings.relight && plan.estimates_error;
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
-    world_.emitters = tracing::upload_vector(context, "emitters", plan.tables.emitters);
+    world_.emitters = compute::Buffer(context, "emitters", plan.tables.emitters);
     if (plan.runs(map_stage)) world_.map.emplace(context, world_.tables.photons_per_pass, world_.defines);
     for (const RunPart* part : plan.parts)
       if (part->make) stages_.push_back({part->make(world_, scene, settings), std::string_view(part->layer) == "caustic"});

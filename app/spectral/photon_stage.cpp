@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons that are splatted into the pixel that sees them: kernels/spectral/photons.cl.
-#include "spectral/effort/emission_guide.h"
 #include "spectral/effort/emitters.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"
@@ -26,8 +25,8 @@ public:
         guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
         guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
-        guide_table_(world.context, "guide of directions", std::span<const float>(guide_.table())),
-        film_(world.zeroed("film caustic", world.film_size())), stored_(world.context, "no photons", 0)
+        guide_table_(world.context, "guide of directions", guide_.table()), film_(world.zeroed("film caustic", world.film_size())),
+        stored_(world.context, "no photons", 0)
   {
     if (world.map) stored_ = world.map->stored();
     make_kernel();
@@ -42,29 +41,24 @@ public:
   {
     if (by_variance_ && slices_.at_start() && deal_.is_due(pass)) deal(pass);
     const RunTables& t = world_.tables;
-    return slices_.step(t.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
-      world_.run_photons(kernel_, count,
-                         {{"targets", world_.buffers.targets},
-                          {"emitters", world_.emitters},
-                          {"film", film_},
-                          {"energy", world_.energy},
-                          {"moments", moments_},
-                          {"guide_moments", guide_moments_},
-                          {"guide", guide_table_},
-                          {"unseen_weight", unseen_weight()},
-                          {"stored", stored_},
-                          {"emitter_count", t.scene.emitter_count},
-                          {"object_count", static_cast<int>(t.objects.size())},
-                          {"camera", t.camera},
-                          {"seed", world_.seed},
-                          {"pass", static_cast<std::uint32_t>(pass)},
-                          {"first_pass", static_cast<std::uint32_t>(deal_.first_pass())},
-                          {"offset", offset},
-                          {"stride", stride},
-                          {"count", count},
-                          {"film_scale", world_.on_device(t.caustic_scale)},
-                          {"energy_scale", world_.on_device(t.energy_scale)},
-                          {"stored_scale", world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w))}});
+    return slices_.step(t.photons_per_pass, [&](const tracing::Slice& slice) {
+      world_.send(kernel_, slice, pass,
+                  {{"targets", world_.buffers.targets},
+                   {"emitters", world_.emitters},
+                   {"film", film_},
+                   {"energy", world_.energy},
+                   {"moments", moments_},
+                   {"guide_moments", guide_moments_},
+                   {"guide", guide_table_},
+                   {"unseen_weight", unseen_weight()},
+                   {"stored", stored_},
+                   {"emitter_count", t.scene.emitter_count},
+                   {"object_count", static_cast<int>(t.objects.size())},
+                   {"seed", world_.seed},
+                   {"first_pass", static_cast<std::uint32_t>(deal_.first_pass())},
+                   {"film_scale", world_.on_device(t.caustic_scale)},
+                   {"energy_scale", world_.on_device(t.energy_scale)},
+                   {"stored_scale", world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w))}});
     });
   }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 1 runs for a preset and what it leaves out: its parts, each of which says its own, one after the other.
+#include "base/counted.h"
 #include "preset/choices.h"
 #include "spectral/describe_settings.h"
+#include "spectral/effort/importance.h"
 #include "spectral/engine.h"
 #include "spectral/plan_part.h"
 #include "spectral/relight/layer_light.h"
@@ -18,8 +20,6 @@
 namespace nephroid::spectral {
 namespace {
 
-std::uint64_t bytes_of(const auto& items) { return items.size() * sizeof(items[0]); }
-
 std::uint64_t bytes_of_sky(const PlanInput& input) { return input.tables.sky ? tracing::bytes_of(*input.tables.sky) : 0; }
 
 /// What every run has.
@@ -27,14 +27,16 @@ PlanPart plan_scene(const PlanInput& input)
 {
   const tracing::WavelengthTables& w = input.tables.wavelengths;
   const std::uint64_t tree = tracing::tree_bytes(input.bvh), triangles = tracing::surface_bytes(input.scene),
-                      environment = input.scene.environment ? bytes_of(input.scene.environment->rgb) : 0;
+                      environment = input.scene.environment ? tracing::bytes_of(input.scene.environment->rgb) : 0;
   PlanPart part;
   part.buffers = {{"scene (host)", tree + triangles + environment + bytes_of_sky(input), true},
                   {"tree", tree},
                   {"triangles", triangles},
-                  {"wavelength tables", bytes_of(w.index_of_cluster) + bytes_of(w.index_of_wavelength) + bytes_of(w.wavelength_cdf) +
-                                            bytes_of(w.coefficient) + bytes_of(w.reflectance) + bytes_of(w.light_xyz) +
-                                            bytes_of(w.reflected_xyz) + bytes_of(w.reflected_xyz_all) + bytes_of(w.cluster_wavelengths)},
+                  {"wavelength tables", tracing::bytes_of(w.index_of_cluster) + tracing::bytes_of(w.index_of_wavelength) +
+                                            tracing::bytes_of(w.wavelength_cdf) + tracing::bytes_of(w.coefficient) +
+                                            tracing::bytes_of(w.reflectance) + tracing::bytes_of(w.light_xyz) +
+                                            tracing::bytes_of(w.reflected_xyz) + tracing::bytes_of(w.reflected_xyz_all) +
+                                            tracing::bytes_of(w.cluster_wavelengths)},
                   {"pixels", 2 * sizeof(std::uint32_t) * input.pixels()}}; // all, and those of glass
   part.defines = scene::tree_defines(input.bvh);
   part.defines["NEPHROID_FILM_HALVES"] = std::to_string(input.halves());
@@ -90,7 +92,51 @@ plan::Pass estimate_pass(const preset::Preset& preset, const plan::Pass& caustic
 
 PlanPart plan_estimate(const PlanInput& input) { return {.passes = {input.estimate}}; }
 
-constexpr RunPart scene_part{plan_scene}, omissions_part{plan_omissions}, estimate_part{plan_estimate},
+plan::Pass stray_photons_pass(const PlanInput& input)
+{
+  const bool aims = input.leave_out.stray_photons;
+  return tracing::not_needed(
+      "stray photons", aims,
+      aims ? fmt::format("photons start towards {} about glass and mirrors only", counted(std::ssize(input.tables.spheres), "sphere"))
+           : "photons need not start where there is no glass and no mirror");
+}
+
+plan::Pass low_discrepancy_pass(const Settings& settings)
+{
+  return {"low discrepancy", settings.low_discrepancy,
+          settings.low_discrepancy ? "photons leave the lights by a scrambled Sobol sequence"
+                                   : "spectral.low_discrepancy is false: plain random numbers",
+          "/spectral/low_discrepancy", true};
+}
+
+plan::Pass differentials_pass(const PlanInput& input)
+{
+  const char* const name = "differentials";
+  if (input.settings.relight) return not_in_layers(name, "a layer is a whole cluster's");
+  if (!input.settings.differentials) return not_asked_for(name, name);
+  if (!input.caustics.runs || input.is_sppm()) return {name, false, "nothing is splatted"};
+  const tracing::StretchParameter along = tracing::stretch_parameter(input.scene);
+  if (along == tracing::StretchParameter::none) return {name, false, "no glass bends one wavelength otherwise than another"};
+  return {name, true,
+          fmt::format("splats are stretched along the way that they move with the {}",
+                      along == tracing::StretchParameter::index ? "index of refraction" : "wavelength, for there are several curves"),
+          "/spectral/differentials", true};
+}
+
+PlanPart plan_caustics(const PlanInput& input)
+{
+  const plan::Pass jitter = jitter_pass(input), low_discrepancy = low_discrepancy_pass(input.settings),
+                   differentials = differentials_pass(input);
+  PlanPart part;
+  if (input.caustics.runs)
+    part.passes = {effort_pass(input.settings, input.tables.importance), stray_photons_pass(input), jitter, low_discrepancy, differentials};
+  part.defines = {{"NEPHROID_JITTER", std::to_string(int(jitter.runs))},
+                  {"NEPHROID_LOW_DISCREPANCY", std::to_string(int(low_discrepancy.runs))},
+                  {"NEPHROID_DIFFERENTIALS", std::to_string(int(differentials.runs))}};
+  return part;
+}
+
+constexpr RunPart scene_part{plan_scene}, caustics_part{plan_caustics}, omissions_part{plan_omissions}, estimate_part{plan_estimate},
     environment_light_part{plan_environment_light};
 
 /// In the order of the plan's rows, and of the stages' turns in a pass.
@@ -184,6 +230,32 @@ RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const
   if (layers.empty()) plan.notes.insert(plan.notes.begin(), fmt::format("there is nothing to render: {}", plan.passes[0].reason));
   plan.notes.insert(plan.notes.begin(), scene.warnings.begin(), scene.warnings.end());
   return plan;
+}
+
+plan::Pass caustics_pass(const PlanInput& input)
+{
+  const char* const name = "photons";
+  if (!input.settings.caustic) return not_asked_for(name, "caustic");
+  // No field brings these back: there is nothing to send.
+  if (const std::string dark = no_light(input); !dark.empty()) return {name, false, dark};
+  const std::string missing = input.objects.dielectrics + input.objects.mirrors == 0 ? "no object is of glass or a mirror"
+                              : input.objects.diffuse == 0                           ? "no diffuse surface can receive a caustic"
+                                                                                     : "";
+  if (!missing.empty()) return tracing::not_needed(name, input.leave_out.photons, missing);
+  if (input.tables.emitters.empty()) return {name, false, "no light shines on glass or a mirror"};
+  return tracing::needed(name, fmt::format("{} photons a pass in {}", input.tables.photons_per_pass,
+                                           counted(std::ssize(input.tables.wavelengths.clusters), "wavelength cluster")));
+}
+
+plan::Pass jitter_pass(const PlanInput& input)
+{
+  const char *const name = "jitter", *const field = "/spectral/jitter";
+  if (!input.settings.jitter)
+    return {name, false, "spectral.jitter is false: every path of a cluster has the cluster's mean n", field, true};
+  if (input.settings.relight)
+    return {name, false, "spectral.relight is true: a layer holds clusters as a whole", "/spectral/relight", false};
+  if (!input.tables.wavelengths.clusters_spread) return {name, false, "n is the same at all wavelengths of every cluster"};
+  return {name, true, "each path takes one wavelength of its cluster, so clusters leave no bias", field, true};
 }
 
 } // namespace nephroid::spectral

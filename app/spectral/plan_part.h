@@ -71,7 +71,6 @@ extern const RunPart direct_stage, photon_stage, map_stage, sppm_stage, indirect
 /// In their place where layers are kept for another light.
 extern const RunPart layered_direct_stage, layered_photon_stage;
 extern const RunPart relighting_part; ///< relight/relighting.cpp: what these two share
-extern const RunPart caustics_part;   ///< caustics.cpp: how photons are sent, whatever becomes of them
 extern const RunPart smoothing_part;  ///< smoothing.cpp
 
 /// A stage that the preset does not ask for; field: of its section "spectral".

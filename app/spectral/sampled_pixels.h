@@ -17,10 +17,6 @@
 
 namespace nephroid::spectral {
 
-/// The pixels, row after row, whose square the outline of a triangle or ellipsoid of glass or of a mirror may touch, whatever stands before
-/// it; all of them for a camera inside glass. Every path that meets glass or a mirror first is of one of these.
-std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene);
-
 class SampledPixels {
 public:
   /// enough: samples of a pixel without glass, one a pass; preset::max_passes: all pixels in every pass; 0: those of glass alone.

@@ -44,7 +44,7 @@ const std::vector<Offset>& offsets()
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x)
         if (x * x + y * y <= reach * reach) offsets.push_back({x, y});
-    std::stable_sort(offsets.begin(), offsets.end(), [](const Offset& a, const Offset& b) { return a.distance2() < b.distance2(); });
+    std::ranges::stable_sort(offsets, [](const Offset& a, const Offset& b) { return a.distance2() < b.distance2(); });
     return offsets;
   }();
   return sorted;
@@ -181,10 +181,120 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
   return share;
 }
 
+/// What the pixels show.
+struct Seeing {
+  int width, height;
+  std::span<const Smoothing::Seen> seen; ///< [pixel]
+};
+
+/// Where a pixel's light may go: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step.
+struct Kernel {
+  std::vector<std::size_t> pixels; ///< nearest first
+  std::size_t inside = 0;          ///< of `pixels`, those before the outermost ring
+  double ring_weight = 1;          ///< of a pixel of that ring, 0..1
+};
+
+/// What says where light goes, [pixel].
+struct Weights {
+  std::span<const double> light, wanted; ///< of find_kernel
+  std::span<const double> favour;        ///< that a pixel finds in every kernel
+};
+
+bool are_level(const Smoothing::Seen& a, const Smoothing::Seen& b)
+{
+  if (a.first != b.first || a.surface.object != b.surface.object || a.at_edge != b.at_edge || a.first < 0) return false;
+  const glm::vec3 &n = a.surface.normal, &m = b.surface.normal, way = b.surface.position - a.surface.position;
+  return glm::dot(n, m) > least_cosine && std::abs(glm::dot(way, n + m)) <= 2 * most_rise * glm::length(way);
+}
+
+/// The one of pixel i that holds `wanted` of `light`, or reaches as far as any may.
+void find_kernel(const Seeing& at, std::size_t i, double wanted, std::span<const double> light, Kernel& kernel)
+{
+  const int x = static_cast<int>(i) % at.width, y = static_cast<int>(i) / at.width;
+  kernel.pixels.clear();
+  kernel.inside = 0;
+  kernel.ring_weight = 1;
+  double inside = 0, ring = 0;
+  int distance2 = 0;
+  for (const Offset& o : offsets()) {
+    if (o.distance2() > distance2) {
+      if (inside + ring >= wanted) break;
+      inside += std::exchange(ring, 0);
+      kernel.inside = kernel.pixels.size();
+      distance2 = o.distance2();
+    }
+    const int u = x + o.x, v = y + o.y;
+    if (u < 0 || u >= at.width || v < 0 || v >= at.height) continue;
+    const std::size_t j = static_cast<std::size_t>(v) * static_cast<std::size_t>(at.width) + static_cast<std::size_t>(u);
+    if (j != i && !are_level(at.seen[i], at.seen[j])) continue;
+    kernel.pixels.push_back(j);
+    ring += light[j];
+  }
+  if (kernel.inside > 0 && ring > 0) kernel.ring_weight = std::clamp((wanted - inside) / ring, 0.0, 1.0);
+}
+
+/// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j: as its kernel has it times
+/// favour[j]; a pixel's parts are 1 together. On every core, each with its own j.
+template <class Needed, class Give>
+void give_parts(const Seeing& at, const Weights& by, const Needed& needed, const Give& give)
+{
+  // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of cores.
+  for_ranges(static_cast<std::size_t>(at.height), block_rows, [&](std::size_t, Range rows) {
+    const std::size_t width = static_cast<std::size_t>(at.width), first = rows.begin * width, end = rows.end * width;
+    const std::size_t from = (rows.begin - std::min<std::size_t>(rows.begin, reach)) * width;
+    const std::size_t to = std::min<std::size_t>(rows.end + reach, static_cast<std::size_t>(at.height)) * width;
+    Kernel kernel;
+    for (std::size_t i = from; i < to; ++i) {
+      if (!needed(i)) continue;
+      find_kernel(at, i, by.wanted[i], by.light, kernel);
+      const auto weight = [&](std::size_t k) { return (k < kernel.inside ? 1 : kernel.ring_weight) * by.favour[kernel.pixels[k]]; };
+      double sum = 0;
+      for (std::size_t k = 0; k < kernel.pixels.size(); ++k) sum += weight(k);
+      for (std::size_t k = 0; k < kernel.pixels.size(); ++k)
+        if (const std::size_t j = kernel.pixels[k]; j >= first && j < end) give(i, j, weight(k) / sum);
+    }
+  });
+}
+
+/// Of what a pixel has, `share` is spread; the rest stays. error_draw: may be empty.
+void spread_shares(const Seeing& at, const Weights& by, std::span<const float> share, std::vector<float>& rgb,
+                   std::vector<float>& error_draw)
+{
+  const std::vector<float> rgb_kept = rgb, draw_kept = error_draw;
+  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = (1 - share[i / 3]) * rgb_kept[i];
+  for (std::size_t i = 0; i < error_draw.size(); ++i) error_draw[i] = (1 - share[i / 3]) * draw_kept[i];
+  const auto is_zero = [](const std::vector<float>& v, std::size_t i) {
+    return v.empty() || (v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0);
+  };
+  give_parts(
+      at, by, [&](std::size_t i) { return share[i] > 0 && (!is_zero(rgb_kept, i) || !is_zero(draw_kept, i)); },
+      [&](std::size_t i, std::size_t j, double part) {
+        const float given = share[i] * static_cast<float>(part);
+        for (std::size_t c = 0; c < 3; ++c) rgb[3 * j + c] += given * rgb_kept[3 * i + c];
+        if (!draw_kept.empty())
+          for (std::size_t c = 0; c < 3; ++c) error_draw[3 * j + c] += given * draw_kept[3 * i + c];
+      });
+}
+
+/// Of each pixel's light, what is for the better spread. rgb_spread: with all of it spread.
+std::vector<float> shares(const Seeing& at, const Weights& by, const std::vector<float>& rgb, const std::vector<float>& error_draw,
+                          const std::vector<float>& rgb_spread)
+{
+  const std::vector<float> whole(at.seen.size(), 1);
+  std::vector<float> a(rgb.size()), b(rgb.size()), none;
+  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), a.begin(), std::plus());
+  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), b.begin(), std::minus());
+  for (std::vector<float>* half : {&a, &b}) {
+    const std::vector<double> light = light_of(*half);
+    spread_shares(at, {light, by.wanted, by.favour}, whole, *half, none);
+  }
+  return worthwhile_shares(rgb, error_draw, rgb_spread, a, b, by.light, at.width, at.height);
+}
+
 } // namespace
 
-Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, bool everywhere)
-    : width_(scene.camera.width), height_(scene.camera.height), everywhere_(everywhere)
+Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, Spread spread)
+    : width_(scene.camera.width), height_(scene.camera.height), spread_(spread)
 {
   scene::Scene seen = scene;
   seen.environment.reset(); // the largest part of a scene, and no look needs it
@@ -203,11 +313,6 @@ void Smoothing::look()
   });
   const std::vector<bool> pulled = are_near_pulled(sights, width_, height_);
   for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i] = {pulled[i] ? sights[i].first : sights[i].last, sights[i].first.object};
-  find_edges();
-}
-
-void Smoothing::find_edges()
-{
   for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
     if (seen_[i].first == seen_[j].first && seen_[i].surface.object == seen_[j].surface.object) return;
     seen_[i].at_edge = seen_[j].at_edge = true;
@@ -218,92 +323,6 @@ std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
   return tracing::tree_bytes(bvh) + tracing::surface_bytes(scene) + (sizeof(Sight) + sizeof(Seen) + pulled_apart) * scene.camera.pixels();
-}
-
-bool Smoothing::are_level(const Seen& a, const Seen& b)
-{
-  if (a.first != b.first || a.surface.object != b.surface.object || a.at_edge != b.at_edge || a.first < 0) return false;
-  const glm::vec3 &n = a.surface.normal, &m = b.surface.normal, way = b.surface.position - a.surface.position;
-  return glm::dot(n, m) > least_cosine && std::abs(glm::dot(way, n + m)) <= 2 * most_rise * glm::length(way);
-}
-
-void Smoothing::find_kernel(std::size_t i, double wanted, std::span<const double> light, Kernel& kernel) const
-{
-  const int x = static_cast<int>(i) % width_, y = static_cast<int>(i) / width_;
-  kernel.pixels.clear();
-  kernel.inside = 0;
-  kernel.ring_weight = 1;
-  double inside = 0, ring = 0;
-  int distance2 = 0;
-  for (const Offset& o : offsets()) {
-    if (o.distance2() > distance2) {
-      if (inside + ring >= wanted) break;
-      inside += std::exchange(ring, 0);
-      kernel.inside = kernel.pixels.size();
-      distance2 = o.distance2();
-    }
-    const int u = x + o.x, v = y + o.y;
-    if (u < 0 || u >= width_ || v < 0 || v >= height_) continue;
-    const std::size_t j = static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
-    if (j != i && !are_level(seen_[i], seen_[j])) continue;
-    kernel.pixels.push_back(j);
-    ring += light[j];
-  }
-  if (kernel.inside > 0 && ring > 0) kernel.ring_weight = std::clamp((wanted - inside) / ring, 0.0, 1.0);
-}
-
-template <class Needed, class Give>
-void Smoothing::give_parts(const Weights& by, const Needed& needed, const Give& give) const
-{
-  // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of cores.
-  for_ranges(static_cast<std::size_t>(height_), block_rows, [&](std::size_t, Range rows) {
-    const std::size_t width = static_cast<std::size_t>(width_), first = rows.begin * width, end = rows.end * width;
-    const std::size_t from = (rows.begin - std::min<std::size_t>(rows.begin, reach)) * width;
-    const std::size_t to = std::min<std::size_t>(rows.end + reach, static_cast<std::size_t>(height_)) * width;
-    Kernel kernel;
-    for (std::size_t i = from; i < to; ++i) {
-      if (!needed(i)) continue;
-      find_kernel(i, by.wanted[i], by.light, kernel);
-      const auto weight = [&](std::size_t k) { return (k < kernel.inside ? 1 : kernel.ring_weight) * by.favour[kernel.pixels[k]]; };
-      double sum = 0;
-      for (std::size_t k = 0; k < kernel.pixels.size(); ++k) sum += weight(k);
-      for (std::size_t k = 0; k < kernel.pixels.size(); ++k)
-        if (const std::size_t j = kernel.pixels[k]; j >= first && j < end) give(i, j, weight(k) / sum);
-    }
-  });
-}
-
-void Smoothing::spread_shares(const Weights& by, std::span<const float> share, std::vector<float>& rgb,
-                              std::vector<float>& error_draw) const
-{
-  const std::vector<float> rgb_kept = rgb, draw_kept = error_draw;
-  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = (1 - share[i / 3]) * rgb_kept[i];
-  for (std::size_t i = 0; i < error_draw.size(); ++i) error_draw[i] = (1 - share[i / 3]) * draw_kept[i];
-  const auto is_zero = [](const std::vector<float>& v, std::size_t i) {
-    return v.empty() || (v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0);
-  };
-  give_parts(
-      by, [&](std::size_t i) { return share[i] > 0 && (!is_zero(rgb_kept, i) || !is_zero(draw_kept, i)); },
-      [&](std::size_t i, std::size_t j, double part) {
-        const float given = share[i] * static_cast<float>(part);
-        for (std::size_t c = 0; c < 3; ++c) rgb[3 * j + c] += given * rgb_kept[3 * i + c];
-        if (!draw_kept.empty())
-          for (std::size_t c = 0; c < 3; ++c) error_draw[3 * j + c] += given * draw_kept[3 * i + c];
-      });
-}
-
-std::vector<float> Smoothing::shares(const Weights& by, const std::vector<float>& rgb, const std::vector<float>& error_draw,
-                                     const std::vector<float>& rgb_spread) const
-{
-  const std::vector<float> whole(seen_.size(), 1);
-  std::vector<float> a(rgb.size()), b(rgb.size()), none;
-  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), a.begin(), std::plus());
-  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), b.begin(), std::minus());
-  for (std::vector<float>* half : {&a, &b}) {
-    const std::vector<double> light = light_of(*half);
-    spread_shares({light, by.wanted, by.favour}, whole, *half, none);
-  }
-  return worthwhile_shares(rgb, error_draw, rgb_spread, a, b, by.light, width_, height_);
 }
 
 void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw)
@@ -318,17 +337,18 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw)
   // Knopp (1967) evens that out, and still every pixel gives away what it has.
   std::vector<double> favour(seen_.size(), 1), taken(seen_.size());
   const Weights by{light, wanted, favour};
+  const Seeing at{width_, height_, seen_};
   give_parts(
-      by, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
+      at, by, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
   std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
 
   const std::vector<float> whole(seen_.size(), 1);
   std::vector<float> rgb_spread = rgb, draw_spread = error_draw;
-  spread_shares(by, whole, rgb_spread, draw_spread);
-  if (!everywhere_) {
-    const std::vector<float> share = shares(by, rgb, error_draw, rgb_spread);
+  spread_shares(at, by, whole, rgb_spread, draw_spread);
+  if (spread_ == Spread::where_it_helps) {
+    const std::vector<float> share = shares(at, by, rgb, error_draw, rgb_spread);
     rgb_spread = rgb, draw_spread = error_draw;
-    spread_shares(by, share, rgb_spread, draw_spread);
+    spread_shares(at, by, share, rgb_spread, draw_spread);
   }
   add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
   rgb = std::move(rgb_spread);

@@ -31,9 +31,9 @@ bool is_dielectric(const scene::Scene& scene, const scene::Object& object)
 /// Whether any glass that an object is of has an index other than 1.
 bool anything_bends(const scene::Scene& scene)
 {
-  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+  return std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
     const optics::Spectrum& n = material_of(scene, object).n;
-    return is_dielectric(scene, object) && std::any_of(n.begin(), n.end(), [](double value) { return value != 1; });
+    return is_dielectric(scene, object) && std::ranges::any_of(n, [](double value) { return value != 1; });
   });
 }
 
@@ -52,7 +52,7 @@ bool may_be_in_view(const scene::Scene& scene, const scene::Object& object)
     const double outside[] = {x - c.tan_x * z, -x - c.tan_x * z, y - c.tan_y * z, -y - c.tan_y * z, -z};
     for (std::size_t side = 0; side < beyond.size(); ++side) beyond[side] = beyond[side] && outside[side] > margin;
   });
-  return std::none_of(beyond.begin(), beyond.end(), [](bool b) { return b; });
+  return std::ranges::none_of(beyond, [](bool b) { return b; });
 }
 
 struct Plane {
@@ -126,7 +126,7 @@ std::vector<bool> lit_wavelengths(const scene::Scene& scene)
   for (const scene::Light& light : scene.lights)
     for (std::size_t w = 0; w < lit.size(); ++w)
       if (has_power(light) && light.spectrum[w] > 0) lit[w] = true;
-  if (std::none_of(lit.begin(), lit.end(), [](bool b) { return b; })) lit.assign(lit.size(), true);
+  if (std::ranges::none_of(lit, [](bool b) { return b; })) lit.assign(lit.size(), true);
   return lit;
 }
 
@@ -145,7 +145,7 @@ ObjectCounts count_objects(const scene::Scene& scene)
 
 bool may_see_glass_or_mirror(const scene::Scene& scene)
 {
-  return !scene.camera.inside.empty() || std::any_of(scene.objects.begin(), scene.objects.end(), [&](const scene::Object& object) {
+  return !scene.camera.inside.empty() || std::ranges::any_of(scene.objects, [&](const scene::Object& object) {
     return material_of(scene, object).type != scene::Material::Type::diffuse && may_be_in_view(scene, object);
   });
 }
@@ -175,7 +175,7 @@ std::vector<plan::Pass> data_omissions(const LeaveOut& leave_out, const scene::S
                   unreached == 1 ? "is" : "are"));
 
   const std::vector<bool> lit = lit_wavelengths(scene);
-  const auto unlit = static_cast<std::size_t>(std::count(lit.begin(), lit.end(), false));
+  const auto unlit = static_cast<std::size_t>(std::ranges::count(lit, false));
   add("unlit wavelengths", leave_out.unlit_wavelengths, unlit, fmt::format("no light has {} of the {} wavelengths", unlit, lit.size()));
   return passes;
 }

@@ -48,7 +48,7 @@ std::vector<float> exact_cdf(const std::vector<double>& weights)
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   if (!weights.empty() && !(total > 0)) return exact_cdf(std::vector<double>(weights.size(), 1.0));
   // One quantum each, so that nothing is left out by rounding, and the rest in proportion.
-  const auto positive = static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
+  const auto positive = static_cast<double>(std::ranges::count_if(weights, [](double w) { return w > 0; }));
   std::vector<float> cdf;
   double sum = 0, ones = 0;
   for (const double weight : weights) {

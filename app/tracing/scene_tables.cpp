@@ -18,8 +18,6 @@ namespace {
 
 using std::numbers::pi;
 
-shared::float4 to_float4(const glm::vec3& v, float w = 0) { return {v.x, v.y, v.z, w}; }
-
 /// where: of the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
 shared::Media to_media(const std::vector<int>& inside, const Place& where)
 {

@@ -4,7 +4,6 @@
 #include "kernels/tracing/shared_types.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
-#include "tracing/stretch.h"
 #include "tracing/wavelength_tables.h"
 
 #include <cstdint>
@@ -55,6 +54,12 @@ struct SceneTables {
   double light_towards_targets_w = 0;    ///< of all lights together
   double power_unit = 1;                 ///< W or W m^-2: DeviceLight::radiometric is in these, so that no power leaves single precision
 };
+
+/// As devices have vectors.
+inline shared::float4 to_float4(const glm::dvec3& v, double w = 0)
+{
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+}
 
 /// where: FILE#/scene/camera. Throws bad_input there where it is inside more than MEDIA_DEPTH dielectrics.
 shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where);

@@ -67,6 +67,11 @@ private:
   StepSize amount_;
 };
 
+/// Of the photons of a pass: `offset`, offset + stride, ..., `count` of them.
+struct Slice {
+  std::uint32_t offset = 0, stride = 1, count = 0;
+};
+
 /// The photons of a pass: slice s of n has the photons s, s + n, s + 2 n, ..., so that each is a fair sample of all.
 class PhotonSlices {
 public:
@@ -79,14 +84,14 @@ public:
   /// Whether the next step is the first of a pass.
   bool at_start() const { return at_.slice == 0; }
 
-  /// Calls work(offset, stride, count) for the next slice of `photons` photons. True when the pass is complete.
+  /// Calls work(slice) for the next of `photons` photons. True when the pass is complete.
   template <class Work>
   bool step(std::uint32_t photons, const Work& work)
   {
     if (at_start())
       at_.slices = static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons / photons_a_step_.amount()), 1, photons));
     const std::uint32_t count = (photons - at_.slice + at_.slices - 1) / at_.slices;
-    photons_a_step_.timed(count, [&] { work(at_.slice, at_.slices, count); });
+    photons_a_step_.timed(count, [&] { work(Slice{at_.slice, at_.slices, count}); });
     if (++at_.slice < at_.slices) return false;
     at_ = {};
     return true;

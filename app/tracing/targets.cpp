@@ -187,7 +187,7 @@ std::vector<scene::Sphere> caustic_targets(const scene::Scene& scene)
   std::vector<scene::Sphere> best = spheres_of(pieces);
   double best_shadow = mean_shadow(best);
   while (pieces.size() < max_targets) {
-    const auto widest = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+    const auto widest = std::ranges::max_element(pieces, [](const Piece& a, const Piece& b) {
       return (a.triangles.size() > 1 ? a.sphere.radius : 0) < (b.triangles.size() > 1 ? b.sphere.radius : 0);
     });
     if (widest->triangles.size() < 2) break;

@@ -21,8 +21,6 @@ std::vector<glm::uvec3> corners_of_primitives(const scene::Mesh& mesh, const sce
   return corners;
 }
 
-std::uint64_t bytes_of(const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); }
-
 } // namespace
 
 std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + bytes_of(bvh.blocks); }
@@ -35,8 +33,8 @@ std::uint64_t surface_bytes(const scene::Scene& scene)
 
 void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& b)
 {
-  b.nodes = upload_vector(context, "tree nodes", bvh.nodes);
-  b.blocks = upload_vector(context, "tree triangles", bvh.blocks);
+  b.nodes = compute::Buffer(context, "tree nodes", bvh.nodes);
+  b.blocks = compute::Buffer(context, "tree triangles", bvh.blocks);
   b.positions = upload_triples<float>(context, "vertex positions", scene.geometry.positions);
   b.normals = upload_triples<float>(context, "vertex normals", scene.geometry.normals);
   b.corners = upload_triples<std::uint32_t>(context, "triangle corners", corners_of_primitives(scene.geometry, bvh));
@@ -47,28 +45,28 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   const WavelengthTables& w = tables.wavelengths;
   SceneBuffers b;
   upload_surfaces(context, scene, bvh, b);
-  b.object_of_primitive = upload_vector(context, "object of each primitive", scene.object_of_primitive);
-  b.objects = upload_vector(context, "objects", tables.objects);
-  b.materials = upload_vector(context, "materials", tables.materials);
-  b.lights = upload_vector(context, "lights", tables.lights);
-  b.targets = upload_vector(context, "targets", tables.targets);
-  b.index_of_cluster = upload_vector(context, "index of refraction of each cluster", w.index_of_cluster);
-  b.index_of_wavelength = upload_vector(context, "index of refraction of each wavelength", w.index_of_wavelength);
-  b.wavelength_cdf = upload_vector(context, "choice of a wavelength", w.wavelength_cdf);
-  b.index_slope = upload_vector(context, "slope of the index of refraction", tables.stretch.index_slope);
-  b.stretch_place = upload_vector(context, "stretch of each wavelength", tables.stretch.place);
-  b.stretch_span = upload_vector(context, "stretch of each cluster", tables.stretch.span);
-  b.coefficient = upload_vector(context, "attenuation", w.coefficient);
-  b.reflectance = upload_vector(context, "reflectance", w.reflectance);
-  b.cluster_cdf = upload_vector(context, "cluster choice", w.cluster_cdf);
-  b.cluster_first = upload_vector(context, "cluster starts", w.cluster_first);
-  b.cluster_wavelengths = upload_vector(context, "cluster wavelengths", w.cluster_wavelengths);
-  b.light_xyz = upload_vector(context, "light spectra", w.light_xyz);
-  b.reflected_xyz = upload_vector(context, "reflected colours by cluster", w.reflected_xyz);
+  b.object_of_primitive = compute::Buffer(context, "object of each primitive", scene.object_of_primitive);
+  b.objects = compute::Buffer(context, "objects", tables.objects);
+  b.materials = compute::Buffer(context, "materials", tables.materials);
+  b.lights = compute::Buffer(context, "lights", tables.lights);
+  b.targets = compute::Buffer(context, "targets", tables.targets);
+  b.index_of_cluster = compute::Buffer(context, "index of refraction of each cluster", w.index_of_cluster);
+  b.index_of_wavelength = compute::Buffer(context, "index of refraction of each wavelength", w.index_of_wavelength);
+  b.wavelength_cdf = compute::Buffer(context, "choice of a wavelength", w.wavelength_cdf);
+  b.index_slope = compute::Buffer(context, "slope of the index of refraction", tables.stretch.index_slope);
+  b.stretch_place = compute::Buffer(context, "stretch of each wavelength", tables.stretch.place);
+  b.stretch_span = compute::Buffer(context, "stretch of each cluster", tables.stretch.span);
+  b.coefficient = compute::Buffer(context, "attenuation", w.coefficient);
+  b.reflectance = compute::Buffer(context, "reflectance", w.reflectance);
+  b.cluster_cdf = compute::Buffer(context, "cluster choice", w.cluster_cdf);
+  b.cluster_first = compute::Buffer(context, "cluster starts", w.cluster_first);
+  b.cluster_wavelengths = compute::Buffer(context, "cluster wavelengths", w.cluster_wavelengths);
+  b.light_xyz = compute::Buffer(context, "light spectra", w.light_xyz);
+  b.reflected_xyz = compute::Buffer(context, "reflected colours by cluster", w.reflected_xyz);
   const SkyTables none, &sky = tables.sky ? *tables.sky : none;
-  b.sky_cdf = upload_vector(context, "environment as a light, choice of a texel", sky.cdf);
-  b.sky_colour = upload_vector(context, "environment as a light", sky.colour);
-  b.reflected_xyz_all = upload_vector(context, "reflected colours", w.reflected_xyz_all);
+  b.sky_cdf = compute::Buffer(context, "environment as a light, choice of a texel", sky.cdf);
+  b.sky_colour = compute::Buffer(context, "environment as a light", sky.colour);
+  b.reflected_xyz_all = compute::Buffer(context, "reflected colours", w.reflected_xyz_all);
   return b;
 }
 

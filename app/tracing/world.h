@@ -27,18 +27,12 @@ struct SceneBuffers {
   compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all, stretch_place, stretch_span;
 };
 
-/// One table. Throws as upload.
-template <class T>
-compute::Buffer<T> upload_vector(const compute::Context& context, const char* name, const std::vector<T>& items)
-{
-  return compute::Buffer<T>(context, name, std::span<const T>(items));
-}
-
-/// What a scene's tree and its triangles take, in bytes.
+/// What a table, and a scene's tree and its triangles, take in bytes.
+std::uint64_t bytes_of(const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); }
 std::uint64_t tree_bytes(const scene::Bvh& bvh);
 std::uint64_t surface_bytes(const scene::Scene& scene);
 
-/// Of the tables those that say where surfaces are; the others stay. Throws as upload.
+/// Of the tables those that say where surfaces are; the others stay. Throws failed where the device has not enough memory.
 void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& buffers);
 
 /// Throws failed where the device has not enough memory.
@@ -55,9 +49,7 @@ struct World {
 
   compute::Buffer<std::int64_t> zeroed(const std::string& name, std::size_t count) const
   {
-    compute::Buffer<std::int64_t> buffer(context, name, count);
-    buffer.fill_zero();
-    return buffer;
+    return compute::zeroed<std::int64_t>(context, name, count);
   }
 
   /// Runs a kernel that has WORLD_ARGUMENTS (kernels/tracing/world.h) beside its `own`, and waits for it.
@@ -106,9 +98,10 @@ struct World {
     return result;
   }
   /// As run, with items for `count` photons, and one at least.
-  void run_photons(compute::Kernel& kernel, std::uint32_t count, std::initializer_list<compute::Argument> own)
+  void run_photons(compute::Kernel& kernel, std::uint32_t count, std::initializer_list<compute::Argument> own,
+                   std::initializer_list<compute::Argument> more = {})
   {
-    run(kernel, std::max(1u, (count + photons_per_item() - 1) / photons_per_item()), 32, own);
+    run(kernel, std::max(1u, (count + photons_per_item() - 1) / photons_per_item()), 32, own, more);
   }
 };
 

@@ -49,7 +49,7 @@ static inline float3 caustic_irradiance(const Receivers* receivers, const Device
   return weights > 0.0f ? sum / (weights * distance * distance) : (float3)(0.0f);
 }
 
-// Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of app/environment/light/irradiance.h.
+// Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of app/environment/segment/irradiance.h.
 // polynomial: factors of 1, x, y, z, xx, yy, zz, xy, yz, zx.
 static inline float3 smooth_irradiance(__global const float4* polynomial, float3 n)
 {

@@ -3,7 +3,7 @@
 // differentials are (Igehy 1999, "Tracing ray differentials"), with the wavelength in the place of the pixel (Elek et al. 2014, "Spectral
 // ray differentials").
 //
-// They are taken with respect to one parameter s of the wavelength (app/tracing/stretch.h): a prime is d/ds below, and n' = dn/ds of every
+// They are taken with respect to one parameter s of the wavelength (app/tracing/wavelength_tables.h): a prime is d/ds below, and n' = dn/ds of every
 // material is given. With s the wavelength in nm a path moves by P' a nanometre; with s the index n itself, by P' a unit of n.
 // Emission does not depend on the wavelength, so every path starts with P' = 0 and D' = 0. Which surfaces a path meets, and whether it is
 // reflected there, is held fixed.

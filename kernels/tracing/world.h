@@ -21,7 +21,7 @@ typedef struct {
   __global const float* index_of_cluster;    // [cluster][material]: of refraction, the mean
   __global const float* index_of_wavelength; // [401][material]
   __global const float* wavelength_cdf;      // [light, or all of them at the end][member of cluster]: see band.h
-  __global const float* index_slope;         // [cluster][material]: dn/ds, see stretch.h, here and below
+  __global const float* index_slope;         // [cluster][material]: dn/ds, see differential.h, here and below
   __global const float4* stretch_place;      // [401]: s of a wavelength, of the one below it, of the one above
   __global const float4* stretch_span;       // [cluster]: s of its mean index, the lowest and the highest s of its light
   __global const float4* reflected_xyz;      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar); w: of light

@@ -3,8 +3,7 @@
 // colours. Bakes on disk whose header makes no sense: refused before anything is allocated for them.
 #include "base/hashed_bytes.h"
 #include "environment/bake/bake.h"
-#include "environment/bake/bake_file.h"
-#include "environment/ball_map.h"
+#include "environment/checks.h"
 #include "optics/colour.h"
 #include "optics/fresnel.h"
 #include "tests/environment/bakes.h"

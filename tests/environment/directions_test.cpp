@@ -2,7 +2,7 @@
 // The directions of a bake and the map of a sphere; which baked directions stand for a light, and how their spheres are turned; directions
 // that are baked while they are shown.
 #include "environment/bake/bake.h"
-#include "environment/bake/own_directions.h"
+#include "environment/bake/baker.h"
 #include "environment/light/distant_lights.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"

@@ -3,7 +3,7 @@
 #include "tests/support/extremes.h"
 #include "tests/support/process_state.h"
 
-#include "environment/ball_map.h"
+#include "environment/checks.h"
 #include "image/image.h"
 #include "tests/environment/maps.h"
 #include "tests/environment/picture_files.h"

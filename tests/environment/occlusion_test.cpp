@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What reaches the object of each light, on a device: against closed forms of what a ball, a rectangle and a floor hide.
 #include "environment/occlusion/occlusion.h"
-#include "environment/occlusion/surroundings.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cube's geometry against closed forms, and its light against sums over the texels of the map.
-#include "environment/light/irradiance.h"
 #include "environment/segment/cube.h"
-#include "environment/segment/quality.h"
+#include "environment/segment/irradiance.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 #include "tests/environment/maps.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Segmentations: both methods against a plain program that tries every cut, flux and tiling, closed forms, and the extremes.
-#include "environment/segment/cuts.h"
-#include "environment/segment/quality.h"
+#include "environment/segment/irradiance.h"
 #include "environment/segment/segment.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"

@@ -4,7 +4,6 @@
 #include "environment/bake/caster.h"
 #include "environment/occlusion/occlusion.h"
 #include "environment/occlusion/samples.h"
-#include "environment/occlusion/surroundings.h"
 #include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"

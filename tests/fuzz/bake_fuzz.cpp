@@ -5,7 +5,6 @@
 #include "base/hash.h"
 #include "base/hashed_bytes.h"
 #include "environment/bake/bake.h"
-#include "environment/bake/bake_file.h"
 #include "tests/fuzz/harness.h"
 
 namespace nephroid::fuzz {

@@ -2,7 +2,6 @@
 // kernels/tracing/random.h against the published test vectors of its generator. samplers_test.cpp tests the distribution of its uniforms.
 // Low-discrepancy sequences, and the guide of emission.
 #include "kernels/tracing/shared_types.h"
-#include "spectral/effort/emission_guide.h"
 #include "spectral/effort/emitters.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
@@ -168,9 +167,8 @@ TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
     for (shared::DeviceEmitter& e : emitters) e.photon_count = small;
     emitters.back().photon_count = photons - small * clusters;
     spectral::number_photons(emitters);
-    const auto table = tracing::upload_vector(kernels().context(), "emitters", emitters);
-    const compute::Buffer<shared::DeviceLight> lights =
-        tracing::upload_vector(kernels().context(), "lights", std::vector<shared::DeviceLight>(1));
+    const auto table = compute::Buffer(kernels().context(), "emitters", emitters);
+    const compute::Buffer<shared::DeviceLight> lights = compute::Buffer(kernels().context(), "lights", std::vector<shared::DeviceLight>(1));
     compute::Buffer<std::uint32_t> hits(kernels().context(), "hits", 401);
     hits.fill_zero();
     const std::array<std::uint32_t, 2> seed{7, 0};

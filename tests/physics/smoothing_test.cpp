@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs with smoothed caustics beside the same runs without: the same power, less error.
-#include "spectral/sampled_pixels.h"
 #include "spectral/sight.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/loaded_scenes.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the panel "Environment" shows, without a window: what is made anew when, held against the engine's own functions; maps that are not
 // there or not maps; the map as a flat picture: places of directions, lines between regions; figures of its lights; drags.
-#include "environment/segment/quality.h"
+#include "environment/segment/irradiance.h"
 #include "environment/settings.h"
 #include "image/image.h"
 #include "preset/read.h"

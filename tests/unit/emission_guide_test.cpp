@@ -3,10 +3,10 @@
 // may meet glass.
 #include "scene/bvh.h"
 #include "scene/scene.h"
-#include "spectral/effort/emission_guide.h"
+#include "spectral/effort/emitters.h"
 #include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"
-#include "spectral/sampled_pixels.h"
+#include "spectral/sight.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
@@ -169,13 +169,13 @@ TEST(LayerCells, APixelHasWhatItAndItsNeighboursSeeTheMostSeenFirst)
 {
   // One row of five pixels with two samples each; the last pixel sees nothing, nor does its neighbour.
   const std::vector<int> seen{0, 0, 0, 1, 1, 1, -1, -1, -1, -1};
-  const LayerCells cells = make_layer_cells({seen, 5, 1, 2, 2}, 100, false);
+  const LayerCells cells = make_layer_cells({seen, 5, 1, 2, 2}, 100, Unseen::no_cell);
   EXPECT_THAT(reflectors_of(cells, 0), ElementsAre(0, 1));
   EXPECT_THAT(reflectors_of(cells, 1), ElementsAre(0, 1));
   EXPECT_THAT(reflectors_of(cells, 2), ElementsAre(1, 0)) << "its own before its neighbour's";
   EXPECT_THAT(reflectors_of(cells, 3), ElementsAre(1));
   EXPECT_THAT(reflectors_of(cells, 4), ElementsAre());
-  const LayerCells all = make_layer_cells({seen, 5, 1, 2, 2}, 100, true);
+  const LayerCells all = make_layer_cells({seen, 5, 1, 2, 2}, 100, Unseen::a_cell);
   EXPECT_THAT(reflectors_of(all, 4), ElementsAre(1)) << "light that falls there all the same has a place";
 }
 
@@ -183,7 +183,7 @@ TEST(LayerCells, CellsOfOneReflectorFillWholeBlocksAndNoTwoAreTheSame)
 {
   std::vector<int> seen;
   for (int i = 0; i < 40 * 30; ++i) seen.push_back(i * 7919 % 5);
-  const LayerCells cells = make_layer_cells({seen, 40, 30, 1, 5}, 5000, true);
+  const LayerCells cells = make_layer_cells({seen, 40, 30, 1, 5}, 5000, Unseen::a_cell);
   std::set<int> numbers;
   for (const shared::LayerCell& cell : cells.cells) {
     EXPECT_TRUE(numbers.insert(cell.cell).second);
@@ -196,7 +196,7 @@ TEST(LayerCells, WhereThereAreTooManyEveryPixelKeepsTheOneItSeesMost)
 {
   std::vector<int> seen;
   for (int i = 0; i < 20 * 20; ++i) seen.insert(seen.end(), {i % 3, i % 3, (i + 1) % 3});
-  const LayerCells cells = make_layer_cells({seen, 20, 20, 3, 3}, 500, true);
+  const LayerCells cells = make_layer_cells({seen, 20, 20, 3, 3}, 500, Unseen::a_cell);
   EXPECT_EQ(cells.cells.size(), 500u);
   for (std::size_t i = 0; i < 400; ++i) EXPECT_EQ(reflectors_of(cells, i).at(0), static_cast<int>(i) % 3) << i;
 }

@@ -67,7 +67,7 @@ Moments moments(const std::vector<float>& rgb, int from, int to, int margin, std
 
 class Smoothing : public testing::Test, protected FloorAndWall {
 protected:
-  spectral::Smoothing smoothing{scene, bvh, true};
+  spectral::Smoothing smoothing{scene, bvh, spectral::Smoothing::Spread::everywhere};
 };
 
 TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
@@ -163,7 +163,7 @@ scene::Scene two_walls(const preset::Object& between, double wall_height)
 /// Where photons are on the right alone they stay there, and are spread.
 void expect_no_light_on_the_left(const scene::Scene& scene)
 {
-  spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), true);
+  spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), spectral::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int x, int) { return x >= size / 2 ? 1.0 : 0.0; }, 9);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -188,7 +188,7 @@ TEST_F(Smoothing, spreads_within_curved_glass)
 {
   const scene::Scene glass =
       two_walls(shape_object("ball", preset::Shape::Type::sphere, "glass", {.scale = {8, 8, 8}, .translate = {0, -4, 0}}), -20);
-  spectral::Smoothing within(glass, scene::build_bvh(glass.geometry), true);
+  spectral::Smoothing within(glass, scene::build_bvh(glass.geometry), spectral::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int, int) { return 1.0; }, 11);
   const double variance = moments(photons.rgb, 16, size - 16, 16).variance, power = sum(photons.rgb);
   within.spread(photons.rgb, photons.error_draw);
@@ -224,7 +224,8 @@ struct Errors {
 Errors errors_of(const Density& density)
 {
   const FloorAndWall room;
-  spectral::Smoothing everywhere(room.scene, room.bvh, true), by_gain(room.scene, room.bvh, false);
+  spectral::Smoothing everywhere(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere),
+      by_gain(room.scene, room.bvh, spectral::Smoothing::Spread::where_it_helps);
   const auto add_error = [&](const std::vector<float>& rgb, double& sum) {
     for (int y = size / 2 + 8; y < size - 8; ++y)
       for (int x = 8; x < size - 8; ++x) sum += std::pow(rgb[3 * static_cast<std::size_t>(y * size + x)] - density(x, y), 2);
@@ -279,7 +280,7 @@ TEST_F(Smoothing, leaves_a_picture_of_one_pixel_alone)
   p.scene.camera.resolution = {1, 1};
   const scene::Scene empty = scene::load_scene(p);
   std::vector<float> rgb{3, -1, 2}, draw{1, 1, 1};
-  spectral::Smoothing(empty, scene::build_bvh(empty.geometry), true).spread(rgb, draw);
+  spectral::Smoothing(empty, scene::build_bvh(empty.geometry), spectral::Smoothing::Spread::everywhere).spread(rgb, draw);
   EXPECT_EQ(rgb, (std::vector<float>{3, -1, 2}));
   EXPECT_EQ(draw, (std::vector<float>{1, 1, 1}));
 }

@@ -2,7 +2,7 @@
 // spectral/stretch.h: what a splat is stretched along, without a device.
 #include "optics/wavelength.h"
 #include "tests/support/test.h"
-#include "tracing/stretch.h"
+#include "tracing/wavelength_tables.h"
 
 namespace nephroid::stretch_test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/environment/model.h"
 
-#include "environment/segment/quality.h"
+#include "environment/segment/irradiance.h"
 #include "environment/settings.h"
 #include "scene/environment.h"
 #include "ui/state/tone.h"

@@ -2,9 +2,7 @@
 #include "environment/bake/baker.h"
 
 #include "base/parallel.h"
-#include "environment/bake/bake.h"
 #include "environment/colours.h"
-#include "environment/to_float4.h"
 #include "tracing/omissions.h"
 
 #include <algorithm>
@@ -67,8 +65,8 @@ BakeTask make_task(const preset::Preset& preset)
 
 Baker::Baker(const BakeTask& task, const compute::Context& context)
     : task_(task), world_(tracing::make_world(context, task.caster.scene, task.bvh, task.tables, task.defines, task.seed)),
-      light_rgb_(tracing::upload_vector(context, "white light", white_light())),
-      radii_(tracing::upload_vector(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))), bake_(task.empty_bake())
+      light_rgb_(compute::Buffer(context, "white light", white_light())),
+      radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))), bake_(task.empty_bake())
 {
   // As kernels/tracing/emission.h has it: photons are spread over the discs of all targets, which may overlap.
   double discs = 0;
@@ -99,7 +97,7 @@ void Baker::step()
                         {"energy", energy_},
                         {"sphere_count", static_cast<int>(task_.radii.size())},
                         {"side", task_.resolution},
-                        {"direction", to_float4(task_.directions[number])},
+                        {"direction", tracing::to_float4(task_.directions[number])},
                         {"number", number},
                         {"seed", world_.seed},
                         {"first", sent_},
@@ -161,6 +159,64 @@ void Baker::state(tracing::State& state)
   state.buffer(film_);
   state.buffer(ways_);
   state.buffer(energy_);
+}
+
+// One direction stands alone where else four are put together, and its caustics are sharp.
+std::uint32_t OwnDirections::photons_each(const BakeTask& task)
+{
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(8 * std::uint64_t{task.photons}, 1U << 30));
+}
+
+OwnDirections::OwnDirections(const BakeTask& task, const compute::Context& context) : context_(context), task_(task)
+{
+  task_.radii = task_.own_radii;
+  bake_ = task_.empty_bake();
+  bake_.directions.clear();
+  task_.photons = photons_each(task);
+}
+
+void OwnDirections::want(const std::vector<glm::dvec3>& directions)
+{
+  Bake wanted = task_.empty_bake();
+  wanted.directions.clear();
+  std::vector<glm::dvec3> missing;
+  for (const glm::dvec3& direction : directions) {
+    const auto at = static_cast<std::size_t>(std::ranges::find(bake_.directions, direction) - bake_.directions.begin());
+    if (at >= bake_.baked.size()) {
+      missing.push_back(direction);
+      continue;
+    }
+    wanted.directions.push_back(direction);
+    wanted.baked.push_back(bake_.baked[at]);
+    const auto keep = [&](const std::vector<std::uint16_t>& from, std::size_t items, std::vector<std::uint16_t>& to) {
+      to.insert(to.end(), from.data() + at * items, from.data() + (at + 1) * items);
+    };
+    keep(bake_.halves, bake_.direction_items(), wanted.halves);
+    keep(bake_.ways, bake_.direction_texels(), wanted.ways);
+  }
+  wanted.directions.insert(wanted.directions.end(), missing.begin(), missing.end());
+  if (baker_ && (missing.empty() || missing.front() != task_.directions.front())) {
+    sent_ += baker_->photons();
+    baker_.reset();
+  }
+  bake_ = std::move(wanted);
+}
+
+// Each has a baker of its own, so its photons are the same whatever is baked beside it.
+void OwnDirections::step()
+{
+  if (!baker_) {
+    task_.directions = {bake_.directions[bake_.baked.size()]};
+    baker_.emplace(task_, context_);
+  }
+  baker_->step();
+  if (!baker_->finished()) return;
+  sent_ += baker_->photons();
+  const Bake one = baker_->take();
+  baker_.reset(); // its device memory is for others
+  bake_.baked.push_back(one.baked.front());
+  bake_.halves.insert(bake_.halves.end(), one.halves.begin(), one.halves.end());
+  bake_.ways.insert(bake_.ways.end(), one.ways.begin(), one.ways.end());
 }
 
 } // namespace nephroid::environment

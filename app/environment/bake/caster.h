@@ -2,7 +2,6 @@
 // The objects that are baked: alone, in coordinates of their own, where the first of them is neither turned nor moved. So a bake stays
 // right when the preset turns or moves all of them together, and is another one where it moves them against each other.
 #pragma once
-#include "environment/bake/extent.h"
 #include "environment/settings.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
@@ -14,6 +13,13 @@
 #include <vector>
 
 namespace nephroid::environment {
+
+/// How near and how far the surface of a baked scene is, as seen from (0, 0, 0), the middle of its spheres.
+struct Extent {
+  double nearest = 0;        ///< of the surface that air touches, which light may leave
+  double farthest = 0;       ///< of all of it
+  bool middle_inside = true; ///< whether an object encloses the middle
+};
 
 struct Caster {
   std::string name;                 ///< of the objects, for messages
@@ -50,5 +56,10 @@ struct Placement {
 
 /// scene: of the preset. caster: of the preset, or of another one in which only objects, lights and cameras are turned and moved.
 Placement placement(const preset::Preset& preset, const Caster& caster, const scene::Scene& scene);
+
+/// What lies inside another object of glass is not the surface: liquid behind the wall of its glass. Of a triangle or an ellipsoid that
+/// does so in part, a few points tell. `nearest` is a lower bound where an ellipsoid that is no sphere is off the middle, `farthest` an
+/// upper one.
+Extent extent_of(const scene::Scene& scene);
 
 } // namespace nephroid::environment

@@ -4,10 +4,11 @@
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
 #include "environment/light/distant_lights.h"
-#include "environment/light/one_by_one.h"
+#include "environment/settings.h"
 #include "kernels/environment/render_types.h"
 #include "tracing/step_size.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -29,6 +30,47 @@ struct CastTexels {
     return {{"list", *list},           {"first", first},      {"count", count},       {"size", size},
             {"distances", *distances}, {"normals", *normals}, {"caustics", *caustics}};
   }
+};
+
+/// What is looked up, all of it on the device.
+struct TurnedSpheres {
+  const compute::Buffer<std::uint16_t>& stored;
+  const compute::Buffer<float>& radii;
+  const compute::Buffer<shared::DeviceEightSets>& sets; ///< none of lights' own directions
+  shared::DeviceSpheres spheres;
+  shared::float4 object_x, object_y, object_z; ///< the object's axes in the scene
+};
+
+/// Caustics on receivers, put together set after set in the ways that the thesis compares (table 3.3): kernels/environment/one_by_one.cl.
+class OneByOne {
+public:
+  /// stored: spheres of all baked directions in their stored form, direction after direction. Throws failed where the device has not enough
+  /// memory.
+  OneByOne(Technique technique, const std::vector<std::uint16_t>& stored, std::size_t directions, std::size_t channels,
+           const compute::Context& context);
+
+  /// On the device, beside TurnedSpheres. texels: in their stored form, of all spheres of one direction.
+  static std::uint64_t bytes(Technique technique, std::size_t texels, std::size_t directions, std::size_t channels);
+
+  /// sets: as turned.sets has them.
+  void set_lights(const TurnedSpheres& turned, const std::vector<TurnedSet>& sets);
+  /// turned: as set_lights had it.
+  void cast(const TurnedSpheres& turned, const CastTexels& texels);
+
+private:
+  struct Launch {
+    int first_set = 0;
+    std::vector<int> directions; ///< of its sets
+  };
+  /// As many as it takes for all sets. own: further arguments.
+  void run(compute::Kernel& kernel, std::uint32_t items, const TurnedSpheres& turned, const std::vector<compute::Argument>& own);
+
+  Technique technique_;
+  compute::Context context_;
+  std::vector<compute::Buffer<std::uint16_t>> of_direction_; ///< [direction], or all in TurnedSpheres::stored
+  compute::Buffer<float> compiled_;                          ///< [sphere][texel of the stored form][3]
+  std::vector<Launch> launches_;
+  compute::Kernel cast_, compile_, cast_compiled_;
 };
 
 class Caustics {

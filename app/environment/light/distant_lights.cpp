@@ -53,7 +53,7 @@ std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing:
     const glm::vec3 way(-light.direction);
     const std::vector<shared::float4> to_light(from.size(), {way.x, way.y, way.z, 0});
     const std::vector<std::uint8_t> free =
-        Sight().free(surroundings, tracing::upload_vector(surroundings.context, "direction of a lamp", to_light), 0, from);
+        Sight().free(surroundings, compute::Buffer(surroundings.context, "direction of a lamp", to_light), 0, from);
     light.irradiance *= static_cast<double>(std::ranges::count(free, 1)) / static_cast<double>(from.size());
   }
   return lights;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/view/receivers.h"
 
-#include "environment/to_float4.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,7 +35,7 @@ void Receivers::forget()
   known_ = lit_ = 0;
 }
 
-void Receivers::find_wanted(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle)
+void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle)
 {
   states_read_ = states_.read();
   for (std::size_t texel = 0; texel < states_read_.size(); ++texel)
@@ -55,20 +53,20 @@ void Receivers::find_wanted(tracing::World* surroundings, compute::Kernel* kerne
     distances_.write(std::vector<float>(distances_.size(), std::numeric_limits<float>::infinity()));
     return;
   }
-  surroundings->run(*kernel, count, 32,
-                    {{"list", list_},
-                     {"first", first},
-                     {"count", count},
-                     {"size", size_},
-                     {"middle", to_float4(middle)},
-                     {"distances", distances_},
-                     {"facing", normals_}});
+  surroundings->world.run(surroundings->receivers, count, 32,
+                          {{"list", list_},
+                           {"first", first},
+                           {"count", count},
+                           {"size", size_},
+                           {"middle", tracing::to_float4(middle)},
+                           {"distances", distances_},
+                           {"facing", normals_}});
 }
 
-void Receivers::find_all(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle)
+void Receivers::find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle)
 {
   states_.write(std::vector<int>(states_.size(), RECEIVER_WANTED));
-  find_wanted(surroundings, kernel, middle);
+  find_wanted(surroundings, middle);
 }
 
 bool Receivers::cast(Caustics& light)

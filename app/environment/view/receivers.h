@@ -6,9 +6,16 @@
 #include "tracing/world.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace nephroid::environment {
+
+/// The scene without the object, and the kernel that looks for receivers there.
+struct Surroundings {
+  tracing::World world;
+  compute::Kernel receivers;
+};
 
 class Receivers {
 public:
@@ -24,11 +31,11 @@ public:
   const compute::Buffer<float>& distances() const { return distances_; }
   const compute::Buffer<float>& caustics() const { return caustics_; }
 
-  /// Lists the texels that paths have asked for since the last call, and works out their distances. surroundings: the scene without the
-  /// object; null where there is nothing.
-  void find_wanted(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle);
+  /// Lists the texels that paths have asked for since the last call, and works out their distances. surroundings: empty where there is
+  /// nothing.
+  void find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
   /// Works out the distances of all texels.
-  void find_all(tracing::World* surroundings, compute::Kernel* kernel, const glm::dvec3& middle);
+  void find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
   /// One step of about 50 ms of caustics on texels that lack them. True when all have theirs.
   bool cast(Caustics& light);
 

@@ -2,8 +2,8 @@
 #include "environment/view/render_task.h"
 
 #include "environment/bake/baker.h"
+#include "environment/occlusion/occlusion.h"
 #include "environment/occlusion/samples.h"
-#include "environment/occlusion/surroundings.h"
 #include "environment/settings.h"
 #include "scene/environment.h"
 #include "scene/scene.h"

@@ -3,8 +3,7 @@
 
 #include "base/parallel.h"
 #include "environment/colours.h"
-#include "environment/occlusion/surroundings.h"
-#include "environment/to_float4.h"
+#include "environment/occlusion/occlusion.h"
 #include "tracing/scene_tables.h"
 
 #include <algorithm>
@@ -41,11 +40,11 @@ std::uint64_t Renderer::medium_bytes(const Bake& bake)
 Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint64_t seed, const compute::Context& context)
     : task_(std::move(task)), white_(white), rotate_deg_(backdrop(*task_.scene).rotate_deg), context_(context),
       world_(tracing::make_world(context, *task_.scene, *task_.bvh, task_.tables, task_.defines, seed)),
-      channel_cdf_(tracing::upload_vector(context, "wavelengths of channels", channel_cdf())),
-      lit_rgb_(tracing::upload_vector(context, "colours of lit surfaces", lit_colours(task_.tables.wavelengths))),
-      reflected_rgb_(tracing::upload_vector(context, "colours of surfaces", reflected_primaries(task_.tables.wavelengths))),
+      channel_cdf_(compute::Buffer(context, "wavelengths of channels", channel_cdf())),
+      lit_rgb_(compute::Buffer(context, "colours of lit surfaces", lit_colours(task_.tables.wavelengths))),
+      reflected_rgb_(compute::Buffer(context, "colours of surfaces", reflected_primaries(task_.tables.wavelengths))),
       moments_(irradiance_moments(task_.cube)), irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
-      texels_(tracing::upload_vector(context, "environment", backdrop(*task_.scene).rgb)),
+      texels_(compute::Buffer(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
       ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
       sums_(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels())), caustics_(caustics),
@@ -82,24 +81,24 @@ void Renderer::make_kernels()
 
 void Renderer::make_surroundings()
 {
-  surroundings_ = surroundings_world(context_, task_.surroundings);
-  receivers_kernel_ = compute::Program(context_, "environment/receivers.cl", surroundings_->defines).kernel("receivers");
+  tracing::World world = surroundings_world(context_, task_.surroundings);
+  const compute::Program program(context_, "environment/receivers.cl", world.defines);
+  surroundings_ = Surroundings{std::move(world), program.kernel("receivers")};
 }
 
 void Renderer::find_around()
 {
-  if (around_)
-    around_->find_all(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr, task_.placement.middle);
+  if (around_) around_->find_all(surroundings_, task_.placement.middle);
 }
 
 void Renderer::light_up()
 {
   world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
-  visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(*surroundings_, rotate_deg_, task_.surface_points)
+  visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(surroundings_->world, rotate_deg_, task_.surface_points)
                                          : whole_lights(task_.segmentation);
-  lamps_ = surroundings_ ? seen_lights(task_.lamps, *surroundings_, task_.surface_points) : task_.lamps;
+  lamps_ = surroundings_ ? seen_lights(task_.lamps, surroundings_->world, task_.surface_points) : task_.lamps;
   std::vector<shared::float4> polynomial;
-  for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_)) polynomial.push_back(to_float4(factor));
+  for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_)) polynomial.push_back(tracing::to_float4(factor));
   irradiance_.write(polynomial);
   air_side_ = 0;
   coarse_.forget_caustics();
@@ -175,8 +174,7 @@ void Renderer::compile_air(int side)
 void Renderer::find_wanted(Receivers& receivers)
 {
   if (!task_.settings.cast) return; // caustics are 0 where nothing has been looked up
-  receivers.find_wanted(surroundings_ ? &*surroundings_ : nullptr, receivers_kernel_ ? &*receivers_kernel_ : nullptr,
-                        task_.placement.middle);
+  receivers.find_wanted(surroundings_, task_.placement.middle);
 }
 
 void Renderer::step()
@@ -228,7 +226,7 @@ void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::ui
               {"ends", ends_},
               {"states", receivers.states()},
               {"size", receivers.size()},
-              {"middle", to_float4(task_.placement.middle)},
+              {"middle", tracing::to_float4(task_.placement.middle)},
               {"camera", task_.tables.camera},
               {"seed", world_.seed},
               {"pass", static_cast<std::uint32_t>(pass_)},
@@ -250,7 +248,7 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
               {"reflected_rgb", reflected_rgb_},
               {"irradiance", irradiance_},
               {"power_unit", static_cast<float>(task_.tables.power_unit)},
-              {"middle", to_float4(task_.placement.middle)},
+              {"middle", tracing::to_float4(task_.placement.middle)},
               {"size", receivers.size()},
               {"distances", receivers.distances()},
               {"caustics", receivers.caustics()},
@@ -279,7 +277,7 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
               {"object_z", air.object_z},
               {"distances", around_->distances()},
               {"size", around_->size()},
-              {"middle", to_float4(task_.placement.middle)},
+              {"middle", tracing::to_float4(task_.placement.middle)},
               {"camera", task_.tables.camera},
               {"extinction", static_cast<float>(s.extinction)},
               {"albedo", static_cast<float>(s.albedo)},

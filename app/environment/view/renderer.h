@@ -3,8 +3,8 @@
 // (kernels/environment/see.cl, shade.cl, volume.cl). What a change does not touch stays.
 #pragma once
 #include "environment/light/caustics.h"
-#include "environment/light/irradiance.h"
 #include "environment/occlusion/occlusion.h"
+#include "environment/segment/irradiance.h"
 #include "environment/view/receivers.h"
 #include "environment/view/render_task.h"
 #include "job/job.h"
@@ -82,8 +82,7 @@ private:
   double white_, rotate_deg_;
   compute::Context context_;
   tracing::World world_;
-  std::optional<tracing::World> surroundings_;
-  std::optional<compute::Kernel> receivers_kernel_;
+  std::optional<Surroundings> surroundings_;
   std::optional<Occlusion> occlusion_; ///< of the segmentation's lights
   compute::Kernel see_, shade_, coarse_shade_, volume_;
   compute::Buffer<float> channel_cdf_;

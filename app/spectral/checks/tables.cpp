@@ -49,13 +49,13 @@ std::vector<float4> sums(const compute::Context& context, const tracing::Wavelen
     }
   const compute::Buffer<float4> out(context, "sums", which.size());
   run_over(context, "attenuated", which.size(),
-           {{"first", on_device(context, "first", t.cluster_first)},
-            {"wavelengths", on_device(context, "wavelengths", t.cluster_wavelengths)},
-            {"coefficient", on_device(context, "coefficient", coefficient)},
-            {"light_xyz", on_device(context, "light", t.light_xyz)},
-            {"reflectance", on_device(context, "reflectance", t.reflectance)},
-            {"in", on_device(context, "which", which)},
-            {"lengths", on_device(context, "lengths", crossed)},
+           {{"first", compute::Buffer(context, "first", t.cluster_first)},
+            {"wavelengths", compute::Buffer(context, "wavelengths", t.cluster_wavelengths)},
+            {"coefficient", compute::Buffer(context, "coefficient", coefficient)},
+            {"light_xyz", compute::Buffer(context, "light", t.light_xyz)},
+            {"reflectance", compute::Buffer(context, "reflectance", t.reflectance)},
+            {"in", compute::Buffer(context, "which", which)},
+            {"lengths", compute::Buffer(context, "lengths", crossed)},
             {"out", out}});
   return out.read();
 }
@@ -135,9 +135,9 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   on_host.target_count = static_cast<int>(targets.size());
   const compute::Buffer<float4> out(context, "photons", 2 * photon_count);
   run_over(context, "emissions", photon_count,
-           {{"lights", on_device(context, "lights", tables.lights)},
+           {{"lights", compute::Buffer(context, "lights", tables.lights)},
             {"light", 0},
-            {"targets", on_device(context, "targets", targets)},
+            {"targets", compute::Buffer(context, "targets", targets)},
             {"scene", tables.scene},
             {"seed", device_seed(seed)},
             {"out", out}});

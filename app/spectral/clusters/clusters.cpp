@@ -161,8 +161,7 @@ Wavelengths by_falling_n(const optics::Spectrum& n)
 {
   Wavelengths order{};
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return n[static_cast<std::size_t>(a)] > n[static_cast<std::size_t>(b)]; });
+  std::ranges::stable_sort(order, [&](int a, int b) { return n[static_cast<std::size_t>(a)] > n[static_cast<std::size_t>(b)]; });
   return order;
 }
 
@@ -267,7 +266,7 @@ std::vector<double> theta_patches(std::span<const double> n)
 {
   std::vector<double> theta = theta_exact(n);
   // The patch of step i reads psi at i - 1 .. i + 2; all of these need n >= 1, where (4.3) is finite up to 89 degrees.
-  const auto from_one = static_cast<std::size_t>(std::find_if(n.begin(), n.end(), [](double value) { return value < 1; }) - n.begin());
+  const auto from_one = static_cast<std::size_t>(std::ranges::find_if(n, [](double value) { return value < 1; }) - n.begin());
   const std::size_t steps = from_one == n.size() ? theta.size() : from_one - std::min<std::size_t>(from_one, 2);
   if (steps == 0) return theta;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/clusters/clusters.h"
-#include "tracing/stretch.h"
 #include "tracing/wavelength_tables.h"
 
 #include <algorithm>
@@ -28,7 +27,7 @@ std::vector<std::vector<int>> refraction_clusters(const Settings& settings, cons
   for (const scene::Object& object : scene.objects) {
     const scene::Material& material = material_of(scene, object);
     if (material.type != scene::Material::Type::dielectric) continue;
-    if (std::find(curves.begin(), curves.end(), material.n) == curves.end()) curves.push_back(material.n);
+    if (std::ranges::find(curves, material.n) == curves.end()) curves.push_back(material.n);
   }
   if (!curves.empty() && settings.method == ClusterMethod::brute_force) return neighbours(settings.step_nm);
   std::vector<Clustering> clusterings;
@@ -51,7 +50,7 @@ void split(std::vector<int> cluster, const std::vector<double>& coefficients, do
            std::vector<std::vector<int>>& parts)
 {
   const auto a = [&](int w) { return coefficients[static_cast<std::size_t>(w)]; };
-  std::stable_sort(cluster.begin(), cluster.end(), [&](int v, int w) { return a(v) < a(w); });
+  std::ranges::stable_sort(cluster, [&](int v, int w) { return a(v) < a(w); });
   auto first = cluster.begin();
   while (first != cluster.end()) {
     const auto end = std::find_if(first, cluster.end(), [&](int w) { return largest_difference(a(*first), a(w), longest) > most; });
@@ -84,8 +83,8 @@ std::vector<std::vector<int>> split_by_losses(std::vector<std::vector<int>> clus
                                               double most)
 {
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-    const bool used = std::any_of(scene.objects.begin(), scene.objects.end(),
-                                  [&](const scene::Object& object) { return static_cast<std::size_t>(object.material) == m; });
+    const bool used =
+        std::ranges::any_of(scene.objects, [&](const scene::Object& object) { return static_cast<std::size_t>(object.material) == m; });
     const std::vector<double> coefficients = used ? tracing::loss_coefficients(scene.materials[m]) : std::vector<double>{};
     if (coefficients.empty()) continue;
     const double longest = scene.materials[m].type == scene::Material::Type::mirror ? reflections : 2 * diagonal_m(scene, m);

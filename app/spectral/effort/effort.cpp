@@ -79,7 +79,7 @@ std::vector<double> cluster_sums(const std::vector<double>& weights, std::size_t
 {
   std::vector<double> sums(clusters, 0);
   for (std::size_t i = 0; i < weights.size(); ++i) sums[i % clusters] += weights[i];
-  const double largest = sums.empty() ? 0 : *std::max_element(sums.begin(), sums.end());
+  const double largest = sums.empty() ? 0 : *std::ranges::max_element(sums);
   for (double& sum : sums) sum = largest > 0 ? sum / largest : 1;
   return sums;
 }
@@ -87,7 +87,7 @@ std::vector<double> cluster_sums(const std::vector<double>& weights, std::size_t
 bool caustics_are_possible(const scene::Scene& scene, const std::vector<double>& watts)
 {
   const tracing::ObjectCounts objects = tracing::count_objects(scene);
-  return objects.diffuse > 0 && !caustic_objects(scene).empty() && std::any_of(watts.begin(), watts.end(), [](double w) { return w > 0; });
+  return objects.diffuse > 0 && !caustic_objects(scene).empty() && std::ranges::any_of(watts, [](double w) { return w > 0; });
 }
 
 /// What of the work of equal clusters is done.

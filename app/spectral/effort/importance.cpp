@@ -27,7 +27,7 @@ using Type = scene::Material::Type;
 Spectrum reflectance_of(const scene::Material& material)
 {
   Spectrum m = material.reflectance;
-  if (material.type == Type::mirror) m.fill(*std::max_element(m.begin(), m.end()));
+  if (material.type == Type::mirror) m.fill(*std::ranges::max_element(m));
   return m;
 }
 
@@ -90,8 +90,8 @@ std::vector<double> parts_towards(const scene::Scene& scene, const std::vector<s
   for (scene::Light light : scene.lights) {
     light.power_w = light.irradiance_w_m2 = 1;
     std::vector<scene::Sphere> reached;
-    std::copy_if(receivers.begin(), receivers.end(), std::back_inserter(reached),
-                 [&](const scene::Sphere& sphere) { return tracing::reaches(light, sphere); });
+    std::ranges::copy_if(receivers, std::back_inserter(reached),
+                         [&](const scene::Sphere& sphere) { return tracing::reaches(light, sphere); });
     parts.push_back(tracing::towards_targets_w(light, reached, scene.metres_per_unit));
   }
   return parts;
@@ -118,7 +118,7 @@ double luminance(const Spectrum& light, const Spectrum& reflectance)
 /// Divides by the largest value. False where all are 0.
 bool normalise(Spectrum& u)
 {
-  const double largest = *std::max_element(u.begin(), u.end());
+  const double largest = *std::ranges::max_element(u);
   if (!(largest > 0)) return false;
   for (double& value : u) value /= largest;
   return true;

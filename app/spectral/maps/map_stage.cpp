@@ -4,7 +4,6 @@
 // its own, and the film adds them up like any other's.
 #include "base/counted.h"
 #include "spectral/maps/eye_paths.h"
-#include "spectral/maps/map_plan.h"
 #include "spectral/maps/photon_map.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"

@@ -6,7 +6,6 @@
 #include "spectral/effort/emitters.h"
 #include "spectral/effort/importance.h"
 #include "spectral/maps/eye_paths.h"
-#include "spectral/maps/map_plan.h"
 #include "spectral/maps/photon_map.h"
 #include "spectral/stage.h"
 #include "tracing/scales.h"
@@ -66,7 +65,7 @@ public:
   /// Its state may be gigabytes, so nothing is saved: kernels run over no photon and no pixel.
   void warm_up() override
   {
-    send_photons(0, 0, 1, 0);
+    send_photons(0, {});
     map_.build(first_radius_, 0);
     eye_.warm_up();
     gather_photons(eye_.points(), 0, 0, 0, 1);
@@ -213,38 +212,31 @@ private:
     std::vector<shared::DeviceEmitter> emitters = make_emitters(sources, photons_);
     for (shared::DeviceEmitter& emitter : emitters)
       emitter.sequence = static_cast<std::uint32_t>(cluster); // clusters are runs of their own
-    return {{world_.context, "emitters of a cluster", std::span<const shared::DeviceEmitter>(emitters)},
-            static_cast<int>(emitters.size()),
-            photon_scale(photons_, weights)};
+    return {{world_.context, "emitters of a cluster", emitters}, static_cast<int>(emitters.size()), photon_scale(photons_, weights)};
   }
 
-  void send_photons(std::int64_t pass, std::uint32_t offset, std::uint32_t stride, std::uint32_t count)
+  void send_photons(std::int64_t pass, const tracing::Slice& slice)
   {
     const int cluster = std::min(at_.cluster, cluster_count() - 1);
     const Sender& sender = senders_[static_cast<std::size_t>(cluster)];
     const RunTables& t = world_.tables;
-    world_.run_photons(send_, count,
-                       {{"targets", world_.buffers.targets},
-                        {"emitters", sender.emitters},
-                        {"film", unused_},
-                        {"energy", run_of(cluster).energy},
-                        {"moments", unused_},
-                        {"guide_moments", unused_},
-                        {"guide", no_guide_},
-                        {"unseen_weight", 0.0f},
-                        {"stored", map_.stored()},
-                        {"emitter_count", sender.emitter_count},
-                        {"object_count", static_cast<int>(t.objects.size())},
-                        {"camera", t.camera},
-                        {"seed", seed_of(cluster)},
-                        {"pass", static_cast<std::uint32_t>(iterations_of(cluster, pass))},
-                        {"first_pass", 0u},
-                        {"offset", offset},
-                        {"stride", stride},
-                        {"count", count},
-                        {"film_scale", 0.0f},
-                        {"energy_scale", world_.on_device(t.energy_scale)},
-                        {"stored_scale", world_.on_device(sender.photon_scale)}});
+    world_.send(send_, slice, iterations_of(cluster, pass),
+                {{"targets", world_.buffers.targets},
+                 {"emitters", sender.emitters},
+                 {"film", unused_},
+                 {"energy", run_of(cluster).energy},
+                 {"moments", unused_},
+                 {"guide_moments", unused_},
+                 {"guide", no_guide_},
+                 {"unseen_weight", 0.0f},
+                 {"stored", map_.stored()},
+                 {"emitter_count", sender.emitter_count},
+                 {"object_count", static_cast<int>(t.objects.size())},
+                 {"seed", seed_of(cluster)},
+                 {"first_pass", 0u},
+                 {"film_scale", 0.0f},
+                 {"energy_scale", world_.on_device(t.energy_scale)},
+                 {"stored_scale", world_.on_device(sender.photon_scale)}});
   }
 
   /// items: work items, at least one; of them `count` gather.
@@ -264,8 +256,7 @@ private:
 
   bool send(std::int64_t pass)
   {
-    return slices_.step(
-        photons_, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) { send_photons(pass, offset, stride, count); });
+    return slices_.step(photons_, [&](const tracing::Slice& slice) { send_photons(pass, slice); });
   }
 
   bool gather(std::int64_t pass)

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/relight/layer_film.h"
 
+#include "base/counted.h"
+#include "spectral/clusters/clusters.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nephroid::spectral {
 namespace {
@@ -18,7 +24,7 @@ void add_samples(const Survey& survey, int x, int y, int weight, std::vector<See
   const auto samples = static_cast<std::size_t>(survey.samples);
   for (const int reflector : survey.seen.subspan(pixel * samples, samples)) {
     if (reflector < 0) continue;
-    const auto seen = std::find_if(list.begin(), list.end(), [&](const Seen& s) { return s.reflector == reflector; });
+    const auto seen = std::ranges::find_if(list, [&](const Seen& s) { return s.reflector == reflector; });
     if (seen == list.end())
       list.push_back({reflector, weight});
     else
@@ -37,8 +43,7 @@ void look(const Survey& survey, int x, int y, std::vector<Seen>& list)
     for (int dx = -1; dx <= 1; ++dx)
       if (x + dx >= 0 && x + dx < survey.width && y + dy >= 0 && y + dy < survey.height)
         add_samples(survey, x + dx, y + dy, dx == 0 && dy == 0 ? own_weight(survey) : 1, list);
-  std::sort(list.begin(), list.end(),
-            [](const Seen& a, const Seen& b) { return a.count != b.count ? a.count > b.count : a.reflector < b.reflector; });
+  std::ranges::sort(list, [](const Seen& a, const Seen& b) { return a.count != b.count ? a.count > b.count : a.reflector < b.reflector; });
 }
 
 constexpr std::size_t spare_cells = 8192; // small pictures may have edges everywhere
@@ -86,9 +91,26 @@ LayerFilmWeights make_weights(std::span<const std::array<double, 3>> colours, in
   return weights;
 }
 
+PlanPart plan_relighting(const PlanInput& input)
+{
+  if (!input.settings.relight) return {};
+  const std::size_t lights = input.tables.lights.size(), clusters = input.tables.wavelengths.clusters.size();
+  const std::string split =
+      input.tables.wavelengths.attenuator_count > 0
+          ? fmt::format("; in a cluster, what a material leaves of two wavelengths differs by at most {}", largest_loss_difference)
+          : "";
+  return {.passes = {{"relighting", true,
+                      fmt::format("{} of {} in {} are kept apart, so that spectra and powers can change; dark ones too, for which "
+                                  "half of the photons go to every cluster alike{}",
+                                  counted(lights * clusters, "layer"), counted(lights, "light"), counted(clusters, "wavelength cluster"),
+                                  split),
+                      "/spectral/relight", true}},
+          .buffers = {{"survey and weighing", input.pixels() * SURVEY_PLACES * (1 + SURVEY_PATHS) * sizeof(int)}}};
+}
+
 } // namespace
 
-LayerCells make_layer_cells(const Survey& survey, std::size_t most, bool every_pixel)
+LayerCells make_layer_cells(const Survey& survey, std::size_t most, Unseen unseen)
 {
   const std::size_t pixels = static_cast<std::size_t>(survey.width) * static_cast<std::size_t>(survey.height);
   std::vector<std::vector<Seen>> seen(pixels);
@@ -96,7 +118,7 @@ LayerCells make_layer_cells(const Survey& survey, std::size_t most, bool every_p
   for (std::size_t i = 0; i < pixels; ++i) {
     std::vector<Seen> list;
     look(survey, static_cast<int>(i) % survey.width, static_cast<int>(i) / survey.width, list);
-    if (list.empty() && every_pixel && survey.reflector_count > 0) list.push_back({i > 0 ? seen[i - 1][0].reflector : 0, 0});
+    if (list.empty() && unseen == Unseen::a_cell && survey.reflector_count > 0) list.push_back({i > 0 ? seen[i - 1][0].reflector : 0, 0});
     longest = std::max(longest, list.size());
     seen[i] = std::move(list);
   }
@@ -151,7 +173,7 @@ std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene
     const int column = pixel % camera.width, row = pixel / camera.width;
     const float x = 2 * (static_cast<float>(column) + 0.5f) / width - 1, y = 1 - 2 * (static_cast<float>(row) + 0.5f) / height;
     const glm::vec3 way = glm::normalize(forward + x * camera.tan_x * right + y * camera.tan_y * up);
-    if (std::any_of(spheres.begin(), spheres.end(), [&](const scene::Sphere& sphere) { return may_see(way, sphere); })) ++bent;
+    if (std::ranges::any_of(spheres, [&](const scene::Sphere& sphere) { return may_see(way, sphere); })) ++bent;
   }
   return bent > 0 ? 2 * bent + spare_cells : 0;
 }
@@ -161,9 +183,8 @@ static_assert(sizeof(LayerWeight) == 6 * sizeof(float), "the weights as kernels/
 LayerFilm::LayerFilm(const compute::Context& context, const std::string& name, const LayerCells& cells, std::size_t layers,
                      std::size_t halves, const compute::Defines& defines)
     : context_(context), layers_(layers), halves_(halves), pixels_(cells.first.size() - 1), cell_count_(cells.count()),
-      first_(context, name + ": cells of each pixel", std::span<const int>(cells.first)),
-      reflector_of_block_(context, name + ": reflectors", std::span<const int>(cells.reflector_of_block)),
-      cells_(context, name + ": cells", std::span<const shared::LayerCell>(cells.cells)),
+      first_(context, name + ": cells of each pixel", cells.first),
+      reflector_of_block_(context, name + ": reflectors", cells.reflector_of_block), cells_(context, name + ": cells", cells.cells),
       sums_(context, name, halves * layers * cell_count_), weighed_(context, name + ": weighed", 6 * cell_count_),
       pictures_(context, name + ": pictures", 6 * pixels_)
 {
@@ -240,6 +261,54 @@ LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int r
   return make_weights(colours, reflectors, halves, [&](std::size_t half, std::size_t) -> std::array<double, 2> {
     return half == 0 ? std::array{1 / quanta_per_unit, 0.0} : std::array{0.0, 1 / quanta_per_unit};
   });
+}
+
+const RunPart relighting_part{plan_relighting};
+
+void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part)
+{
+  const std::uint64_t padded = padded_cells(cells, input.tables.wavelengths.reflector_count), pixels = input.pixels();
+  part.buffers.push_back({name, sizeof(std::int64_t) * input.halves() * layers * padded});
+  // Where the cells are, and two weighed pictures by cell and by pixel.
+  part.buffers.push_back(
+      {"survey and weighing", padded * sizeof(shared::LayerCell) + pixels * sizeof(int) + 6 * sizeof(float) * (padded + pixels)});
+}
+
+const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene)
+{
+  if (world.relighting) return *world.relighting;
+  const RunTables& tables = world.tables;
+  world.relighting = std::make_shared<Relighting>();
+  Relighting& relighting = *world.relighting;
+  relighting.light = layer_light(scene, world.white);
+  relighting.weights = layer_weights(relighting.light, tables.wavelengths);
+  const FlatLight flat = flat_light(tables.wavelengths);
+  relighting.mean_reflectance = compute::Buffer<float>(world.context, "mean reflectances", std::span(flat.mean_reflectance));
+  relighting.luminance_share = compute::Buffer<float>(world.context, "luminance of each cluster", std::span(flat.luminance_share));
+
+  const int width = tables.camera.width, height = tables.camera.height, reflectors = tables.wavelengths.reflector_count;
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  compute::Buffer<int> unbent(world.context, "survey", pixels * SURVEY_PLACES),
+      bent(world.context, "survey through glass", pixels * SURVEY_PLACES * SURVEY_PATHS);
+  compute::Kernel survey = compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("survey");
+  world.run(survey, pixels, 64, {{"camera", tables.camera}, {"seed", world.seed}, {"unbent", unbent}, {"bent", bent}});
+  const std::vector<int> seen = unbent.read(), seen_bent = bent.read();
+  relighting.unbent = make_layer_cells({seen, width, height, SURVEY_PLACES, reflectors}, unbent_cells(tables.camera), Unseen::a_cell);
+  relighting.bent = make_layer_cells({seen_bent, width, height, SURVEY_PLACES * SURVEY_PATHS, reflectors},
+                                     bent_cells(tables.camera, tables.spheres), Unseen::no_cell);
+  return relighting;
+}
+
+void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light)
+{
+  relighting.weights = layer_weights(light, world.tables.wavelengths);
+  relighting.light = std::move(light);
+  ++relighting.changes;
+  world.tables.energy_scale = layer_energy_scale(relighting.light, world.tables);
+  std::vector<std::int64_t> sums = world.energy.read();
+  for (int outcome = 0; outcome < OUTCOME_COUNT; ++outcome)
+    if (outcome != OUTCOME_REFUSED) sums[static_cast<std::size_t>(outcome)] = 0;
+  world.energy.write(sums);
 }
 
 } // namespace nephroid::spectral

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A film of layers (kernels/spectral/layers.h): which cells it has, on the host, its sums on the device, and the pictures that are weighed
 // of it. A cell is a pixel with one reflector that it sees.
+// What the stages of a run that keeps layers share: the light as it is now, and which cells the films have (thesis 6.2.2).
 #pragma once
 #include "compute/compute.h"
 #include "kernels/spectral/layer_types.h"
 #include "kernels/tracing/shared_types.h"
 #include "scene/scene.h"
+#include "spectral/plan_part.h"
+#include "spectral/relight/layer_light.h"
+#include "spectral/tables/device_world.h"
 #include "tracing/state.h"
 
 #include <array>
@@ -33,9 +37,10 @@ struct Survey {
 };
 
 /// A cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may be in the pixel beside.
-/// most: at most so many; then what pixels see least goes first. every_pixel: also a pixel that sees nothing has one, where there
-/// are reflectors at all (then `most` is at least the number of pixels).
-LayerCells make_layer_cells(const Survey& survey, std::size_t most, bool every_pixel);
+/// most: at most so many; then what pixels see least goes first. Unseen::a_cell: also a pixel that sees nothing has one, where there are
+/// reflectors at all (then `most` is at least the number of pixels).
+enum class Unseen { no_cell, a_cell };
+LayerCells make_layer_cells(const Survey& survey, std::size_t most, Unseen unseen);
 
 /// The most that LayerCells::count() can be for so many cells.
 std::size_t padded_cells(std::size_t cells, int reflector_count);
@@ -105,5 +110,22 @@ LayerFilmWeights mean_and_draw(std::span<const std::array<double, 3>> colours, s
 
 /// Weights for weigh(): the first picture is the sum over the first half, the second over the other.
 LayerFilmWeights half_sums(std::span<const std::array<double, 3>> colours, int reflectors, std::size_t halves, double quanta_per_unit);
+
+struct Relighting {
+  LayerLight light;
+  LayerWeights weights;
+  std::uint64_t changes = 0;                                ///< of the light
+  LayerCells unbent, bent;                                  ///< seen directly, and through glass and mirrors
+  compute::Buffer<float> mean_reflectance, luminance_share; ///< FlatLight
+};
+
+/// DeviceWorld::relighting; the first call surveys what the camera sees on the device. world: of make_run_tables for the scene.
+const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene);
+
+/// From now on the light is another one; the energy counters begin anew, but for refused contributions.
+void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light);
+
+/// Adds a film of so many cells to the plan: its sums by their name, its cells and the pictures that are weighed of it by theirs.
+void plan_layer_film(const char* name, std::size_t layers, std::size_t cells, const PlanInput& input, PlanPart& part);
 
 } // namespace nephroid::spectral

@@ -41,7 +41,7 @@ std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracin
 std::vector<double> half_evenly(std::vector<double> parts, const std::vector<bool>& never)
 {
   const double total = std::accumulate(parts.begin(), parts.end(), 0.0);
-  const auto count = static_cast<double>(std::count(never.begin(), never.end(), false));
+  const auto count = static_cast<double>(std::ranges::count(never, false));
   for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = never[i] ? 0 : (total > 0 ? parts[i] / total : 0) + 1 / count;
   return parts;
 }
@@ -57,7 +57,7 @@ scene::Scene with_unit_lights(const scene::Scene& scene)
 
 double LayerLight::strongest() const
 {
-  const double most = power.empty() ? 0 : *std::max_element(power.begin(), power.end());
+  const double most = power.empty() ? 0 : *std::ranges::max_element(power);
   return most > 0 ? most : 1;
 }
 

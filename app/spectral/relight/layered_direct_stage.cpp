@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The direct layer, kept as layers: kernels/spectral/relight_direct.cl.
-#include "spectral/relight/relighting.h"
+#include "spectral/relight/layer_film.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/step_size.h"
@@ -18,7 +18,7 @@ public:
         unbent_(world.context, "film direct", relighting_.unbent, world.tables.lights.size(), world.halves, world.defines),
         bent_(world.context, "film direct through glass", relighting_.bent,
               world.tables.lights.size() * world.tables.wavelengths.clusters.size(), world.halves, world.defines),
-        cluster_cdf_(world.context, "cluster choice", std::span<const float>(world.tables.wavelengths.cluster_cdf)),
+        cluster_cdf_(world.context, "cluster choice", world.tables.wavelengths.cluster_cdf),
         kernel_(compute::Program(world.context, "spectral/relight_direct.cl", world.defines).kernel("direct")),
         rows_(world.tables.camera.height, 16)
   {

@@ -2,7 +2,7 @@
 // The caustic layer, kept as layers: kernels/spectral/relight_photons.cl. Every photon of a layer counts alike, so photons may be dealt
 // anew when the light changes, and what was sent before stays as good as it was.
 #include "spectral/effort/emitters.h"
-#include "spectral/relight/relighting.h"
+#include "spectral/relight/layer_film.h"
 #include "spectral/stage.h"
 #include "tracing/film.h"
 #include "tracing/step_size.h"
@@ -32,27 +32,21 @@ public:
   {
     take_light(pass);
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
-    const bool complete =
-        slices_.step(world_.tables.photons_per_pass, [&](std::uint32_t offset, std::uint32_t stride, std::uint32_t count) {
-          world_.run_photons(kernel_, count,
-                             {{"targets", world_.buffers.targets},
-                              {"emitters", world_.emitters},
-                              {"film_first", film_.first()},
-                              {"film_cells", film_.cells()},
-                              {"film_sums", film_.sums()},
-                              {"film_layer_count", film_.layer_count()},
-                              {"mean_reflectance", relighting_.mean_reflectance},
-                              {"energy", world_.energy},
-                              {"camera", world_.tables.camera},
-                              {"seed", world_.seed},
-                              {"pass", static_cast<std::uint32_t>(pass)},
-                              {"first_pass", static_cast<std::uint32_t>(at_.first_pass)},
-                              {"offset", offset},
-                              {"stride", stride},
-                              {"count", count},
-                              {"film_scale", world_.on_device(scale_)},
-                              {"energy_scale", static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest())}});
-        });
+    const bool complete = slices_.step(world_.tables.photons_per_pass, [&](const tracing::Slice& slice) {
+      world_.send(kernel_, slice, pass,
+                  {{"targets", world_.buffers.targets},
+                   {"emitters", world_.emitters},
+                   {"film_first", film_.first()},
+                   {"film_cells", film_.cells()},
+                   {"film_sums", film_.sums()},
+                   {"film_layer_count", film_.layer_count()},
+                   {"mean_reflectance", relighting_.mean_reflectance},
+                   {"energy", world_.energy},
+                   {"seed", world_.seed},
+                   {"first_pass", static_cast<std::uint32_t>(at_.first_pass)},
+                   {"film_scale", world_.on_device(scale_)},
+                   {"energy_scale", static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest())}});
+    });
     if (complete)
       for (std::size_t e = 0; e < emitters_.size(); ++e) sent_[e][at_.half] += emitters_[e].photon_count;
     return complete;

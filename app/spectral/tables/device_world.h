@@ -3,9 +3,11 @@
 #pragma once
 #include "spectral/maps/photon_map.h"
 #include "spectral/tables/run_tables.h"
+#include "tracing/step_size.h"
 #include "tracing/world.h"
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -14,7 +16,7 @@ namespace nephroid::spectral {
 
 /// Pixels that paths from the eye are for.
 struct PixelLists {
-  std::vector<std::uint32_t> glass;         ///< glass_pixels() in sampled_pixels.h
+  std::vector<std::uint32_t> glass;         ///< glass_pixels() in sight.h
   std::vector<bool> may_show_glass;         ///< [pixel]
   std::uint32_t count = 0;                  ///< pixels of the picture
   compute::Buffer<std::uint32_t> on_device; ///< all of them, then those of glass
@@ -36,6 +38,16 @@ struct DeviceWorld : tracing::World {
   std::size_t film_size() const
   {
     return std::size_t{3} * halves * static_cast<std::size_t>(tables.camera.width) * static_cast<std::size_t>(tables.camera.height);
+  }
+  /// Runs a kernel that sends a slice of the photons of a pass.
+  void send(compute::Kernel& kernel, const tracing::Slice& slice, std::int64_t pass, std::initializer_list<compute::Argument> own)
+  {
+    run_photons(kernel, slice.count, own,
+                {{"camera", tables.camera},
+                 {"pass", static_cast<std::uint32_t>(pass)},
+                 {"offset", slice.offset},
+                 {"stride", slice.stride},
+                 {"count", slice.count}});
   }
   /// A scale for powers as the device knows them.
   float on_device(double scale) const { return static_cast<float>(scale * tables.power_unit); }

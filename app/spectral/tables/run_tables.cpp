@@ -4,7 +4,7 @@
 #include "spectral/clusters/clusters.h"
 #include "spectral/effort/emitters.h"
 #include "spectral/effort/importance.h"
-#include "spectral/maps/map_plan.h"
+#include "spectral/maps/photon_map.h"
 #include "tracing/scales.h"
 
 #include <cmath>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a sphere about a ball should get, from rays in double precision: what baked spheres are held against.
+// Closed forms of engine 2, for `nephroid check`, and what they and tests hold baked spheres against: what a sphere about a ball should
+// get, from rays in double precision.
 #pragma once
+#include "check/check.h"
 #include "environment/bake/bake.h"
 #include "optics/fresnel.h"
 
@@ -22,5 +24,8 @@ std::vector<double> ball_map(const SphereMap& map, const glm::dvec3& light, doub
 
 /// Where a ray of the plane of optics::BallRay crosses the sphere of radius r when it has left.
 glm::dvec2 crossing(const optics::BallRay& ray, double r);
+
+/// Through the kernels that bake.
+check::Checks closed_forms();
 
 } // namespace nephroid::environment

@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The smooth part of what an environment sends to a diffuse surface, for any normal at once.
+// What an environment, or the lights that it is cut into, send to a diffuse surface.
 #pragma once
-#include "environment/segment/cube.h"
+#include "environment/segment/segment.h"
 
 #include <glm/glm.hpp>
 
 #include <array>
+#include <vector>
 
 namespace nephroid::environment {
 
-/// Irradiance as a polynomial of the unit normal (x, y, z): factors of 1, x, y, z, xx, yy, zz, xy, yz, zx; linear sRGB, W/m^2 of Y.
+/// The irradiance of all texels of the cube on planes whose normals lie evenly on the sphere, linear sRGB, W/m^2 of Y. normals: 1 or more.
+std::vector<glm::dvec3> irradiances(const CubeMap& cube, int normals = 256);
+
+/// Of the lights against the truth, which irradiances() gave: the norm of the difference, of all normals and channels, over the norm of the
+/// truth. 0 where the truth is black.
+double irradiance_error(const std::vector<glm::dvec3>& truth, const Segmentation& segmentation);
+
+/// The smooth part of the irradiance, for any normal at once, as a polynomial of the unit normal (x, y, z): factors of 1, x, y, z, xx, yy,
+/// zz, xy, yz, zx; linear sRGB, W/m^2 of Y.
 using IrradiancePolynomial = std::array<glm::dvec3, 10>;
 
 /// Of all light of a map as it lies in its file: its flux, that times the direction it comes from, and times the products of that.
