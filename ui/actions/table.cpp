@@ -2,20 +2,30 @@
 // The table, and its small menus: "Camera", whose bookmarks have names in the View's list "Cameras", and "Help".
 #include "ui/actions/table.h"
 
+#include "ui/view/bars.h"
+
 #include <fmt/format.h>
 
 namespace nephroid::ui {
 namespace {
 
+void bookmark(C c)
+{
+  std::vector<Bookmark> bookmarks = c.chosen.bookmarks;
+  bookmarks.push_back({new_bookmark_name(*c.preset(), bookmarks), c.preset()->scene.camera});
+  c.note("bookmarked the camera as \"" + bookmarks.back().name + "\"");
+  c.push(command::SetBookmarks{std::move(bookmarks)});
+}
+
 std::vector<Action> camera_actions()
 {
   const char* menu = "Camera";
-  std::vector<Action> all{{menu, "Bookmark this camera", ctrl | ImGuiKey_B, false, "Keep where the camera is, to come back", has_preset,
-                           push<command::AddBookmark>}};
+  std::vector<Action> all{
+      {menu, "Bookmark this camera", ctrl | ImGuiKey_B, false, "Keep where the camera is, to come back", has_preset, bookmark}};
   for (std::size_t i = 0; i < 9; ++i)
     all.push_back({menu, fmt::format("Go to camera {}", i + 1), ctrl | static_cast<int>(ImGuiKey_1 + i), false,
                    "The camera of the View's list \"Cameras\"", [i](C c) { return c.preset() && i < c.chosen.bookmarks.size(); },
-                   [i](C c) { c.push(command::GoToBookmark{i}); },
+                   [i](C c) { go_to_bookmark(c, i); },
                    [](C c) { return fmt::format("{} cameras are bookmarked", c.chosen.bookmarks.size()); }});
   return all;
 }

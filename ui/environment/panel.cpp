@@ -23,13 +23,6 @@ float em() { return ImGui::GetFontSize(); }
 
 bool is_engine_2(const preset::Preset& preset) { return &preset.settings.type() == &environment::settings_type(); }
 
-void label(const char* text)
-{
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text);
-  ImGui::SameLine();
-}
-
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 /// What is said of the region under the mouse. number: from 0; lights: how many regions are lights.
@@ -115,106 +108,84 @@ void EnvironmentPanel::draw_toolbar(const Context& context)
   for (const auto& [layout, name, help] : {std::tuple{MapLayout::latitude_longitude, "latitude, longitude", "As the map's file, turned"},
                                            std::tuple{MapLayout::cube, "cube", "The six faces that are cut, as they are in the map"}}) {
     if (ImGui::RadioButton(name, layout_ == layout)) layout_ = layout;
-    places_.note(name);
-    ImGui::SetItemTooltip("%s", help);
+    places_.note(name, help);
     ImGui::SameLine();
   }
   const bool turns = environment_.type == preset::Environment::Type::file;
   ImGui::BeginDisabled(!turns);
   ImGui::SetNextItemWidth(-1);
-  double degrees = environment_.rotate_deg;
-  const double low = -3600, high = 3600;
-  const bool changed =
-      ImGui::DragScalar("##rotation", ImGuiDataType_Double, &degrees, 0.5f, &low, &high, "turned %.1f deg", ImGuiSliderFlags_AlwaysClamp);
-  follow_item(context, gestures_, "rotation", changed, "turn the environment",
-              [&](preset::Preset& p) { p.scene.environment->rotate_deg = degrees; });
+  draw_dragged(context, gestures_,
+               {"rotation", "turn the environment", environment_.rotate_deg, -3600, 3600, 0.5, "turned %.1f deg",
+                "About the vertical, counterclockwise as seen from above. Drag the picture sideways, or this; Ctrl and a click to type."},
+               [](preset::Preset& p, double degrees) { p.scene.environment->rotate_deg = degrees; });
   ImGui::EndDisabled();
-  ImGui::SetItemTooltip("About the vertical, counterclockwise as seen from above. Drag the picture sideways, or this; Ctrl and a click to "
-                        "type.");
 }
 
 /// What engine 2 cuts the map into.
 void EnvironmentPanel::draw_segmentation_row(const Context& context)
 {
   const environment::Settings& settings = environment::settings(*context.preset());
-  label("Lights");
+  draw_label("Lights");
   ImGui::SetNextItemWidth(-13 * em());
   int lights = settings.lights;
   const bool changed = ImGui::SliderScalar("##lights", ImGuiDataType_S32, &lights, &fewest_lights, &most_lights, "%d",
                                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   follow_item(context, gestures_, "lights", changed, "number of lights",
               [&](preset::Preset& p) { environment::settings(p).lights = lights; });
-  ImGui::SetItemTooltip("How many directional lights the map is cut into. Ctrl and a click to type.");
+  tooltip("How many directional lights the map is cut into. Ctrl and a click to type.");
   ImGui::SameLine();
-  label("by");
+  draw_label("by");
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##method", std::string(preset::word(settings.segmentation)).c_str())) {
-    for (const auto& choice : preset::choices<environment::SegmentMethod>) {
-      const std::string name(choice.name);
-      if (ImGui::Selectable(name.c_str(), choice.value == settings.segmentation))
-        context.edit("method of segmentation", [&](preset::Preset& p) { environment::settings(p).segmentation = choice.value; });
-      places_.note("method:" + name);
-      ImGui::SetItemTooltip("%s", std::string(choice.sentence).c_str());
-    }
-    ImGui::EndCombo();
-  }
-  places_.note("method");
+  Combo list("##method", std::string(preset::word(settings.segmentation)), &places_, "method");
+  for (const auto& choice : preset::choices<environment::SegmentMethod>)
+    if (list.entry(std::string(choice.name), choice.value == settings.segmentation, std::string(choice.sentence)))
+      context.edit("method of segmentation", [&](preset::Preset& p) { environment::settings(p).segmentation = choice.value; });
 }
 
 /// How bright it is, and what is too dark.
 void EnvironmentPanel::draw_radiance_row(const Context& context)
 {
-  label("Radiance");
+  draw_label("Radiance");
   ImGui::SetNextItemWidth(cuts_ ? -13 * em() : -1);
-  double radiance = environment_.radiance;
-  const double low = 0, high = 1e9;
-  const bool brighter =
-      ImGui::DragScalar("##radiance", ImGuiDataType_Double, &radiance, static_cast<float>(std::max(1e-3, 0.005 * radiance)), &low, &high,
-                        "%.4g W/(m^2 sr)", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
-  follow_item(context, gestures_, "radiance", brighter, "radiance of the environment",
-              [&](preset::Preset& p) { p.scene.environment->radiance = radiance; });
-  ImGui::SetItemTooltip("Luminance of the map's colour (1, 1, 1): drag it, or type with Ctrl and a click.");
+  draw_dragged(context, gestures_,
+               {"radiance", "radiance of the environment", environment_.radiance, 0, 1e9, std::max(1e-3, 0.005 * environment_.radiance),
+                "%.4g W/(m^2 sr)", "Luminance of the map's colour (1, 1, 1): drag it, or type with Ctrl and a click.",
+                ImGuiSliderFlags_NoRoundToFormat},
+               [](preset::Preset& p, double radiance) { p.scene.environment->radiance = radiance; });
   if (!cuts_) return;
   ImGui::SameLine();
-  label("drop below");
+  draw_label("drop below");
   ImGui::SetNextItemWidth(-1);
   double threshold = environment::settings(*context.preset()).threshold;
   ImGui::InputDouble("##threshold", &threshold, 0, 0, "%.3g");
-  places_.note("threshold");
+  places_.note("threshold", "A region with no more than this part of the map's light, 0 to 1, is no light of its own.");
   if (ImGui::IsItemDeactivatedAfterEdit() && std::isfinite(threshold))
     context.edit("threshold of lights", [&](preset::Preset& p) { environment::settings(p).threshold = std::clamp(threshold, 0.0, 1.0); });
-  ImGui::SetItemTooltip("A region with no more than this part of the map's light, 0 to 1, is no light of its own.");
 }
 
 /// Where engine 2 shows caustics.
 void EnvironmentPanel::draw_caustics_row(const Context& context)
 {
   const environment::Settings& settings = environment::settings(*context.preset());
-  label("Caustics");
+  draw_label("Caustics");
   bool cast = settings.cast;
-  if (ImGui::Checkbox("on surfaces", &cast))
+  if (places_.checkbox("on surfaces", &cast, "on surfaces", "Whether caustics fall on surfaces: environment.cast."))
     context.edit("caustics on surfaces", [&](preset::Preset& p) { environment::settings(p).cast = cast; });
-  places_.note("on surfaces");
-  ImGui::SetItemTooltip("Whether caustics fall on surfaces: environment.cast.");
   ImGui::SameLine();
   bool in_air = settings.extinction > 0;
-  if (ImGui::Checkbox("in the air", &in_air))
+  if (places_.checkbox("in the air", &in_air, "in the air", "Whether a thin medium shows them as beams: environment.extinction."))
     context.edit("caustics in the air", [&](preset::Preset& p) {
       // Such that about a fifth of the light is lost on the way from what is looked at.
       const preset::Vec3 &at = p.scene.camera.position, &to = p.scene.camera.target;
       environment::settings(p).extinction = in_air ? 0.2 / std::hypot(to[0] - at[0], to[1] - at[1], to[2] - at[2]) : 0;
     });
-  places_.note("in the air");
-  ImGui::SetItemTooltip("Whether a thin medium shows them as beams: environment.extinction.");
   ImGui::SameLine();
   ImGui::BeginDisabled(settings.extinction <= 0);
   ImGui::SetNextItemWidth(-1);
-  double extinction = settings.extinction;
-  const double low = 1e-9, high = 1000;
-  const bool changed = ImGui::DragScalar("##extinction", ImGuiDataType_Double, &extinction, static_cast<float>(0.01 * extinction), &low,
-                                         &high, "extinction %.3g", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
-  follow_item(context, gestures_, "extinction", changed, "extinction",
-              [&](preset::Preset& p) { environment::settings(p).extinction = extinction; });
+  draw_dragged(context, gestures_,
+               {"extinction", "extinction", settings.extinction, 1e-9, 1000, 0.01 * settings.extinction, "extinction %.3g",
+                "How thick that medium is: environment.extinction.", ImGuiSliderFlags_NoRoundToFormat},
+               [](preset::Preset& p, double extinction) { environment::settings(p).extinction = extinction; });
   ImGui::EndDisabled();
 }
 

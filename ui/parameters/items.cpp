@@ -109,8 +109,7 @@ void ParametersPanel::draw_item_buttons(const Json& items, const std::string& ke
       change(changed);
       ask(fmt::format("{} {}", name, dotted(at)), pointer, std::move(changed));
     }
-    note(at + ":" + name);
-    ImGui::SetItemTooltip("%s", help);
+    note(at + ":" + name, help);
   };
   button("+", "duplicate", "One more like this", [&](Json& changed) {
     if (is_list)

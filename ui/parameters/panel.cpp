@@ -153,13 +153,10 @@ void ParametersPanel::draw_top()
   input_text("##search", "Search names, units and help", search_, ImGuiInputTextFlags_EscapeClearsAll);
   note("search");
   ImGui::SameLine();
-  ImGui::Checkbox("Changed", &only_changed_);
-  note("changed");
-  ImGui::SetItemTooltip("Only fields that are not as they are by default");
+  places_.checkbox("Changed", &only_changed_, "changed", "Only fields that are not as they are by default");
   for (const auto& [edit, problem] : Problems(draft_.problems())) {
     ImGui::PushID(edit.c_str());
-    if (ImGui::SmallButton("Take back")) draft_.drop(edit);
-    note(edit + ":drop");
+    if (places_.small_button("Take back", edit + ":drop")) draft_.drop(edit);
     ImGui::SameLine();
     if (ImGui::SmallButton(("Show " + dotted(shown_at(problem))).c_str())) {
       search_.clear();
@@ -234,7 +231,7 @@ bool ParametersPanel::draw_label(const std::string& label, const std::string& po
 void ParametersPanel::draw_menu(const Outline& o, const Json& value, const std::string& pointer)
 {
   if (ImGui::IsItemHovered()) help_ = help_of(o, pointer);
-  ImGui::SetItemTooltip("%s", std::string(o.field.sentence).c_str());
+  tooltip(std::string(o.field.sentence));
   if (!ImGui::BeginPopupContextItem((pointer + ":menu").c_str())) return;
   if (ImGui::MenuItem("Reset", nullptr, false, reset(o, value) != value)) ask("reset " + dotted(pointer), pointer, reset(o, value));
   note(pointer + ":menu reset");
@@ -250,8 +247,7 @@ void ParametersPanel::draw_given(const Outline& o, const Json& value, const std:
     ask(fmt::format("{} {}", on ? "give" : "leave out", dotted(pointer)), pointer, on ? given(o) : Json());
     if (on) reveal_ = pointer;
   }
-  note(pointer + ":given");
-  ImGui::SetItemTooltip("Given or not");
+  note(pointer + ":given", "Given or not");
   ImGui::SameLine();
 }
 
@@ -261,8 +257,7 @@ void ParametersPanel::draw_reset(const Outline& o, const Json& value, const std:
   if (o.optional || standard == value) return;
   ImGui::SameLine();
   if (ImGui::ArrowButton(("##reset" + pointer).c_str(), ImGuiDir_Left)) ask("reset " + dotted(pointer), pointer, standard);
-  note(pointer + ":reset");
-  ImGui::SetItemTooltip("Reset: as it is by default");
+  note(pointer + ":reset", "Reset: as it is by default");
 }
 
 /// all: with what is wrong further inside.

@@ -210,10 +210,8 @@ void RunsPanel::draw_buttons(const Context& context, const RunRow& row)
 {
   const auto button = [&](const char* label, const std::string& place, bool enabled, const char* help) {
     ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::SmallButton(label);
+    const bool pressed = places_.small_button(label, place, help);
     ImGui::EndDisabled();
-    places_.note(place);
-    ImGui::SetItemTooltip("%s", help);
     return pressed;
   };
   const Comparison& comparison = context.comparing.comparison();

@@ -166,17 +166,9 @@ struct Nudged {
   std::uint64_t gesture = 0; ///< its number; 0: there was none
   bool operator==(const Nudged&) const = default;
 };
-/// Bookmarks of cameras. Going to one is an edit.
-struct AddBookmark {};
-struct GoToBookmark {
-  std::size_t index = 0;
-};
-struct RenameBookmark {
-  std::size_t index = 0;
-  std::string name;
-};
-struct DeleteBookmark {
-  std::size_t index = 0;
+/// Of cameras. Going to one is an edit.
+struct SetBookmarks {
+  std::vector<Bookmark> bookmarks;
 };
 struct Ask {
   Question question = Question::none;
@@ -242,10 +234,9 @@ using Command =
                  command::Flip, command::CompareWith, command::ShowDifference, command::ShowLayer, command::InspectPixel,
                  command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric,
                  command::ChooseMaterial, command::LoadDispersion, command::Select, command::SetHandles, command::Nudged,
-                 command::AddBookmark, command::GoToBookmark, command::RenameBookmark, command::DeleteBookmark, command::Ask,
-                 command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport, command::Dismiss,
-                 command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout,
-                 command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
+                 command::SetBookmarks, command::Ask, command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport,
+                 command::Dismiss, command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout,
+                 command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

@@ -85,13 +85,6 @@ std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bo
   }
 }
 
-preset::Camera seen_from(const Bookmark& bookmark, const preset::Camera& now)
-{
-  preset::Camera camera = bookmark.camera;
-  camera.resolution = now.resolution;
-  return camera;
-}
-
 std::vector<std::string> dielectrics(const preset::Preset& preset)
 {
   std::vector<std::string> names;

@@ -49,8 +49,6 @@ struct Bookmark {
 
 /// "Prism 2": what the preset is called and the first number that no bookmark has with it.
 std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bookmark>& bookmarks);
-/// The bookmark's camera with the resolution of another: going somewhere does not change the picture's size.
-preset::Camera seen_from(const Bookmark& bookmark, const preset::Camera& now);
 
 /// Those that objects are made of, in the order of the objects, then the others by name.
 std::vector<std::string> dielectrics(const preset::Preset& preset);

@@ -28,6 +28,26 @@ public:
   virtual void draw(const Context& context) = 0;
 
 protected:
+  /// A number of the preset that is dragged, or typed with Ctrl and a click.
+  struct Dragged {
+    std::string widget; ///< its place's name
+    std::string label;  ///< of the edit
+    double value, low, high;
+    double step;        ///< a pixel of the mouse
+    const char* format; ///< as printf's
+    const char* help;
+    ImGuiSliderFlags flags = ImGuiSliderFlags_None; ///< beside AlwaysClamp
+  };
+  /// change(preset, value): one gesture from taking hold of it to letting go.
+  template <class Change>
+  void draw_dragged(const Context& context, Gestures& gestures, const Dragged& d, Change change)
+  {
+    double value = d.value;
+    const bool changed = ImGui::DragScalar(("##" + d.widget).c_str(), ImGuiDataType_Double, &value, static_cast<float>(d.step), &d.low,
+                                           &d.high, d.format, ImGuiSliderFlags_AlwaysClamp | d.flags);
+    follow_item(context, gestures, d.widget, changed, d.label, [&](preset::Preset& p) { change(p, value); });
+    tooltip(d.help);
+  }
   /// What the item drawn last changes of the preset, from taking hold of it to letting go one gesture. Its place is noted as `widget`.
   template <class Change>
   void follow_item(const Context& context, Gestures& gestures, const std::string& widget, bool changed, const std::string& label,
