@@ -3,14 +3,12 @@
 
 #include "optics/wavelength.h"
 #include "preset/read.h"
-#include "ui/inspector/pixel.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
 #include <implot.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {
@@ -190,8 +188,7 @@ void InspectorPanel::draw_spectrum(const Context& context)
   const ImVec2 size{-1, 13 * ImGui::GetFontSize()};
   if (ImPlot::BeginPlot("##spectrum", size, ImPlotFlags_NoMouseText)) {
     axis_.set_up();
-    ImPlot::SetupAxis(ImAxis_Y1, "W/m2/sr/nm", ImPlotAxisFlags_Lock | ImPlotAxisFlags_NoHighlight);
-    ImPlot::SetupAxisLimits(ImAxis_Y1, 0, most > 0 ? 1.1 * most : 1, ImPlotCond_Always);
+    set_up_fixed_axis(ImAxis_Y1, "W/m2/sr/nm", 0, most > 0 ? 1.1 * most : 1, ImPlotAxisFlags_Lock | ImPlotAxisFlags_NoHighlight);
     ImPlot::SetupFinish();
     if (spectrum->layers.size() > 1)
       for (const auto& layer : spectrum->layers)

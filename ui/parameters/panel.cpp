@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/parameters/panel.h"
 
+#include "base/lower_case.h"
 #include "preset/origins.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
-
-#include <algorithm>
 
 namespace nephroid::ui {
 namespace {
@@ -56,24 +55,6 @@ Json given(const Outline& o)
   if (o.kind == Kind::integer) return static_cast<std::int64_t>(number);
   if (o.size > 0) return std::vector<double>(o.size, number);
   return o.object ? o.fresh() : o.kind == Kind::boolean ? Json(false) : o.kind == Kind::text ? Json("") : Json::array();
-}
-
-std::string lower(std::string text)
-{
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
-/// Each word of the search is in the text.
-bool holds(const std::string& text, const std::string& search)
-{
-  for (std::size_t from = 0; from < search.size();) {
-    const std::size_t end = std::min(search.find(' ', from), search.size());
-    if (text.find(search.substr(from, end - from)) == std::string::npos) return false;
-    from = end + 1;
-  }
-  return true;
 }
 
 std::string help_of(const Outline& o, const std::string& pointer)
@@ -287,9 +268,8 @@ bool ParametersPanel::is_wanted(const Outline& o, const Json& value, const std::
   if (o.of_engine && draft_.value()["engine"] != o.field.name) return false;
   if (!is_searching()) return true;
   if (only_changed_ && !is_changed(o, value)) return false;
-  const std::string wanted = lower(search_);
-  if (holds(lower(fmt::format("{} {} {}", dotted(pointer), o.field.sentence, o.field.unit)), wanted)) return true;
-  if (!o.object && wanted.starts_with(lower(dotted(pointer)) + ".")) return true; // a number of it
+  if (has_words(fmt::format("{} {} {}", dotted(pointer), o.field.sentence, o.field.unit), search_)) return true;
+  if (!o.object && lower_case(search_).starts_with(lower_case(dotted(pointer)) + ".")) return true; // a number of it
   if (value.is_null() || !o.object) return false;
   if (o.kind == Kind::object) return any_wanted(o, value, pointer);
   const auto items = value.items();

@@ -10,8 +10,6 @@
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-
 namespace nephroid::ui {
 namespace {
 

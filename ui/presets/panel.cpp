@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
-
 namespace nephroid::ui {
 namespace {
 

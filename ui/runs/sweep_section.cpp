@@ -13,14 +13,10 @@
 #include <fmt/ranges.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <set>
 #include <tuple>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {

@@ -11,9 +11,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 
 namespace nephroid::ui {
 namespace {

@@ -14,7 +14,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace nephroid::ui {

@@ -12,9 +12,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <utility>
-#include <vector>
-
 namespace nephroid::ui {
 namespace {
 

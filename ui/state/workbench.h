@@ -11,12 +11,6 @@
 #include "ui/state/session.h"
 #include "ui/state/tasks.h"
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace nephroid::ui {
 
 class Workbench {

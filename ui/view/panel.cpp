@@ -3,7 +3,6 @@
 
 #include "ui/view/bars.h"
 #include "ui/view/camera.h"
-#include "ui/view/on_picture.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
@@ -11,7 +10,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {

@@ -8,8 +8,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <algorithm>
-
 namespace nephroid::ui {
 namespace {
 

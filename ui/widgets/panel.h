@@ -7,11 +7,7 @@
 
 #include <imgui.h>
 
-#include <any>
-#include <memory>
 #include <string_view>
-#include <type_traits>
-#include <vector>
 
 namespace nephroid::run {
 struct LoadedScene;
@@ -60,7 +56,7 @@ protected:
   }
 };
 
-/// A panel's line in the table: shell/panels.cpp has those for every engine, ui/ENGINE/panels.cpp those of one.
+/// A panel's line in the table: shell/panels.cpp has those for every engine; those of one are listed in ui/ENGINE.
 struct PanelEntry {
   std::string_view name;        ///< of the layout that has it in front; its folder's
   const char* title;            ///< of its tab
@@ -85,7 +81,7 @@ std::unique_ptr<Panel> make_panel([[maybe_unused]] WavelengthAxis& wavelengths)
     return std::make_unique<P>();
 }
 
-// The panels of each engine, in its folder's panels.cpp.
+// The panels of each engine, in its folder: panels.cpp where there are several, else beside the one.
 std::vector<PanelEntry> spectral_panels();
 std::vector<PanelEntry> environment_panels();
 std::vector<PanelEntry> inverse_panels();

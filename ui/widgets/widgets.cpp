@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/widgets/widgets.h"
 
+#include "base/lower_case.h"
 #include "ui/widgets/theme.h"
 
 #include <imgui.h>
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
 
 namespace nephroid::ui {
 namespace {
@@ -73,6 +78,14 @@ void heading_cell(const char* text, const char* help)
   ImGui::TableNextColumn();
   ImGui::TextDisabled("%s", text);
   tooltip(help);
+}
+
+bool has_words(const std::string& text, const std::string& words)
+{
+  const std::string lower_text = lower_case(text);
+  std::istringstream wanted(lower_case(words));
+  return std::all_of(std::istream_iterator<std::string>(wanted), {},
+                     [&](const std::string& word) { return lower_text.find(word) != std::string::npos; });
 }
 
 bool delete_pressed()

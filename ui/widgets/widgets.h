@@ -33,6 +33,8 @@ void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::stri
 void cell(const std::string& text);
 void heading_cell(const char* text, const char* help);
 
+/// Whether each of the words is in the text, in whatever case: for what is typed to search by.
+bool has_words(const std::string& text, const std::string& words);
 /// Whether Delete is pressed in the window in hand and not in a text field.
 bool delete_pressed();
 

@@ -10,9 +10,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace nephroid::ui {
 namespace {
@@ -270,6 +268,15 @@ std::array<double, 4> AnnealingPanel::area_of(const std::string& picture) const
 {
   const auto found = areas_.find(picture);
   return found == areas_.end() ? std::array<double, 4>{} : found->second;
+}
+
+std::vector<PanelEntry> inverse_panels()
+{
+  return {{.name = "annealing",
+           .title = AnnealingPanel::title,
+           .engine = "inverse",
+           .make = make_panel<AnnealingPanel>,
+           .front_for = "inverse"}};
 }
 
 } // namespace nephroid::ui

@@ -10,9 +10,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace nephroid::ui {
 namespace {

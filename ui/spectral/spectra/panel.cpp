@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {
