@@ -2,8 +2,8 @@
 // The window's session and its settings. What is read is written and read again.
 #include "preset/read.h"
 #include "tests/fuzz/harness.h"
+#include "ui/state/commands.h"
 #include "ui/state/session.h"
-#include "ui/state/settings.h"
 
 namespace nephroid::fuzz {
 

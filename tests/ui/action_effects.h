@@ -124,7 +124,9 @@ inline void add_select_and_camera(Effects& all)
 
   all["Bookmark this camera"] = {{}, [](Desk& d) { return d.chosen().bookmarks.size() == d.before.chosen.bookmarks.size() + 1; }};
   const auto bookmark_nine = [](Desk& d) {
-    for (int bookmark = 1; bookmark <= 9; ++bookmark) d.edit(10 + bookmark), d.apply(command::AddBookmark{});
+    std::vector<Bookmark> bookmarks;
+    for (int bookmark = 1; bookmark <= 9; ++bookmark) d.edit(10 + bookmark), bookmarks.push_back({"", d.scene().camera});
+    d.apply(command::SetBookmarks{bookmarks});
     d.edit();
   };
   for (int i = 1; i <= 9; ++i)

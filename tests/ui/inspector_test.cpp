@@ -3,8 +3,7 @@
 // rectangles against closed forms.
 #include "layered_runs.h"
 #include "ui/inspector/panel.h"
-#include "ui/inspector/pixel.h"
-#include "ui/inspector/region.h"
+#include "ui/inspector/pixels.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::inspector_test {

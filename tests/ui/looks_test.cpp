@@ -61,13 +61,13 @@ TEST_F(LooksTest, AKeyGoesThroughTheLayers)
 TEST_F(LooksTest, TheBoxesChooseLayerAndTone)
 {
   click_on("layer");
-  click_on("layer caustic");
+  click_on("layer:caustic");
   EXPECT_EQ(layer(), "caustic");
   click_on("tone");
-  click_on("tone filmic");
+  click_on("tone:filmic");
   EXPECT_EQ(look().tone, ToneCurve::filmic);
   click_on("tone");
-  click_on("tone false colour");
+  click_on("tone:false colour");
   EXPECT_EQ(look().tone, ToneCurve::false_colour);
   EXPECT_FALSE(look().false_colour) << "automatic";
   click_on("auto range");

@@ -74,7 +74,7 @@ TEST_F(Select, TheListSelectsByName)
   open();
   click(*view().place_of("selected"));
   frame();
-  click(*view().place_of("select light 2 (spot)"));
+  click(*view().place_of("selected:light 2 (spot)"));
   EXPECT_EQ(selected(), spot);
 }
 

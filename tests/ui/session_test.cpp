@@ -108,7 +108,8 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
     }
     for (int i = 0; i < 20; ++i) window.workbench.apply({command::Undo{}});
     Look look{.exposure_stops = 1.5};
-    window.workbench.apply({command::SetLook{look}, command::ChooseMetric{"mse"}, command::AddBookmark{}});
+    window.workbench.apply({command::SetLook{look}, command::ChooseMetric{"mse"},
+                            command::SetBookmarks{{{"a camera", window.workbench.preset()->scene.camera}}}});
     window.settle();
   } // not closed
   Window window(state());

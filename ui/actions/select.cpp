@@ -41,28 +41,16 @@ void set_handles(C c, Change change)
   c.push(command::SetHandles{handles});
 }
 
-template <Tool tool>
-void use(C c)
+Action tool_action(const char* name, ImGuiKey key, const char* help, Tool tool)
 {
-  set_handles(c, [](Handles& h) { h.tool = tool; });
+  return switching({name, key, help, has_things, [tool](C c) { set_handles(c, [&](Handles& h) { h.tool = tool; }); }},
+                   [tool](C c) { return c.chosen.handles.tool == tool; });
 }
 
-template <Tool tool>
-bool uses(C c)
+Action handles_action(const char* name, ImGuiKey key, const char* help, bool Handles::*member)
 {
-  return c.chosen.handles.tool == tool;
-}
-
-template <bool Handles::*member>
-void toggle(C c)
-{
-  set_handles(c, [](Handles& h) { h.*member = !(h.*member); });
-}
-
-template <bool Handles::*member>
-bool is_on(C c)
-{
-  return c.chosen.handles.*member;
+  return switching({name, key, help, has_things, [member](C c) { set_handles(c, [&](Handles& h) { h.*member = !(h.*member); }); }},
+                   [member](C c) { return c.chosen.handles.*member; });
 }
 
 std::optional<preset::Camera> camera_at_selected(C c)
@@ -80,8 +68,7 @@ void look_at(C c)
 }
 
 /// Presses in quick succession, and a key that is held, are one gesture.
-template <Nudge direction>
-void nudge(C c)
+void nudge(C c, Nudge direction)
 {
   const Selection selection = c.selection();
   auto edited = nudged(*c.preset(), selection, c.chosen.handles, c.run.seen<SeenScene>().get(), direction);
@@ -101,41 +88,35 @@ void end_nudge(C c)
   if (c.chosen.nudged.gesture != 0) c.push(command::EndGesture{});
 }
 
-template <Nudge direction>
-Action nudge_action(const char* name, ImGuiKey key)
+Action nudge_action(const char* name, ImGuiKey key, Nudge direction)
 {
-  return {"Select",         name,    key,      true, "Move, turn or scale what is selected a little; snapping, by a step", has_selection,
-          nudge<direction>, nullptr, end_nudge};
+  return repeating({name, key, "Move, turn or scale what is selected a little; snapping, by a step", has_selection,
+                    [direction](C c) { nudge(c, direction); }, nullptr, end_nudge});
 }
 
 } // namespace
 
 std::vector<Action> select_actions()
 {
-  const char* menu = "Select";
   return {
-      {menu, "Select the next", ImGuiKey_Period, true, "The next object or light, or the camera's target", has_things, select_next<1>},
-      {menu, "Select the one before", ImGuiKey_Comma, true, "The other way round", has_things, select_next<-1>},
-      {menu, "Deselect", ImGuiKey_Escape, false, "Select nothing", has_selection, deselect},
-      {menu, "Look at the selected", ImGuiKey_A, false, "It becomes the camera's target", can_look_at, look_at, why_not_look_at},
-      {menu, "Move", ImGuiKey_M, false, "Arrows that move what is selected", has_things, use<Tool::move>, nullptr, nullptr,
-       uses<Tool::move>},
-      {menu, "Turn", ImGuiKey_U, false, "Circles that turn an object or aim a light", has_things, use<Tool::turn>, nullptr, nullptr,
-       uses<Tool::turn>},
-      {menu, "Scale", ImGuiKey_S, false, "Handles that scale an object or an area light", has_things, use<Tool::scale>, nullptr, nullptr,
-       uses<Tool::scale>},
-      {menu, "Own axes", ImGuiKey_W, false, "Along its own axes, or along those of the world", has_things, toggle<&Handles::own_axes>,
-       nullptr, nullptr, is_on<&Handles::own_axes>},
-      {menu, "Snap", ImGuiKey_G, false, "In steps: round lengths, 15 degrees, tenths. Ctrl, held in a drag, does the opposite", has_things,
-       toggle<&Handles::snap>, nullptr, nullptr, is_on<&Handles::snap>},
-      {menu, "Icons and handles", ImGuiKey_H, false, "Show lights and handles over the picture; without them a click selects nothing",
-       has_things, toggle<&Handles::shown>, nullptr, nullptr, is_on<&Handles::shown>},
-      nudge_action<Nudge::left>("Nudge to the left", ImGuiKey_LeftArrow),
-      nudge_action<Nudge::right>("Nudge to the right", ImGuiKey_RightArrow),
-      nudge_action<Nudge::up>("Nudge up", ImGuiKey_UpArrow),
-      nudge_action<Nudge::down>("Nudge down", ImGuiKey_DownArrow),
-      nudge_action<Nudge::away>("Nudge away", ImGuiKey_PageUp),
-      nudge_action<Nudge::nearer>("Nudge nearer", ImGuiKey_PageDown),
+      repeating({"Select the next", ImGuiKey_Period, "The next object or light, or the camera's target", has_things, select_next<1>}),
+      repeating({"Select the one before", ImGuiKey_Comma, "The other way round", has_things, select_next<-1>}),
+      {"Deselect", ImGuiKey_Escape, "Select nothing", has_selection, deselect},
+      {"Look at the selected", ImGuiKey_A, "It becomes the camera's target", can_look_at, look_at, why_not_look_at},
+      tool_action("Move", ImGuiKey_M, "Arrows that move what is selected", Tool::move),
+      tool_action("Turn", ImGuiKey_U, "Circles that turn an object or aim a light", Tool::turn),
+      tool_action("Scale", ImGuiKey_S, "Handles that scale an object or an area light", Tool::scale),
+      handles_action("Own axes", ImGuiKey_W, "Along its own axes, or along those of the world", &Handles::own_axes),
+      handles_action("Snap", ImGuiKey_G, "In steps: round lengths, 15 degrees, tenths. Ctrl, held in a drag, does the opposite",
+                     &Handles::snap),
+      handles_action("Icons and handles", ImGuiKey_H, "Show lights and handles over the picture; without them a click selects nothing",
+                     &Handles::shown),
+      nudge_action("Nudge to the left", ImGuiKey_LeftArrow, Nudge::left),
+      nudge_action("Nudge to the right", ImGuiKey_RightArrow, Nudge::right),
+      nudge_action("Nudge up", ImGuiKey_UpArrow, Nudge::up),
+      nudge_action("Nudge down", ImGuiKey_DownArrow, Nudge::down),
+      nudge_action("Nudge away", ImGuiKey_PageUp, Nudge::away),
+      nudge_action("Nudge nearer", ImGuiKey_PageDown, Nudge::nearer),
   };
 }
 

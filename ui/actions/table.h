@@ -10,12 +10,8 @@
 
 namespace nephroid::ui {
 
-std::vector<Action> file_actions();
-std::vector<Action> edit_actions();
 std::vector<Action> select_actions();
-std::vector<Action> run_actions();
 std::vector<Action> view_actions();
-std::vector<Action> window_actions();
 
 using C = const Context&;
 
@@ -23,6 +19,18 @@ using C = const Context&;
 inline bool always(C) { return true; }
 inline bool has_preset(C c) { return c.preset() != nullptr; }
 inline bool has_picture(C c) { return c.run.snapshot() != nullptr; }
+
+inline Action repeating(Action action)
+{
+  action.repeats = true;
+  return action;
+}
+/// What can be on or off.
+inline Action switching(Action action, std::function<bool(C)> is_on)
+{
+  action.checked = std::move(is_on);
+  return action;
+}
 
 /// Pushes a command without arguments.
 template <class Pushed>

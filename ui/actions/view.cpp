@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The menu "View": how the picture is shown, and what it is held against.
 #include "ui/actions/table.h"
-#include "ui/inspector/pixel.h"
+#include "ui/inspector/pixels.h"
 
 #include <algorithm>
 #include <array>
@@ -87,24 +87,15 @@ void next_layer(C c)
   c.push(command::ShowLayer{next == 0 ? "" : layers[static_cast<std::size_t>(next - 1)].name});
 }
 
-template <ToneCurve curve>
-void tone(C c)
+Action tone_action(const char* name, const char* help, ToneCurve curve)
 {
-  look(c, [](Look& l) { l.tone = curve; });
-}
-template <ToneCurve curve>
-bool has_tone(C c)
-{
-  return c.chosen.look.tone == curve;
+  return switching({name, 0, help, always, [curve](C c) { look(c, [&](Look& l) { l.tone = curve; }); }},
+                   [curve](C c) { return c.chosen.look.tone == curve; });
 }
 
 void next_tone(C c)
 {
-  look(c, [](Look& l) {
-    l.tone = l.tone == ToneCurve::standard ? ToneCurve::filmic
-             : l.tone == ToneCurve::filmic ? ToneCurve::false_colour
-                                           : ToneCurve::standard;
-  });
+  look(c, [](Look& l) { l.tone = static_cast<ToneCurve>((static_cast<int>(l.tone) + 1) % 3); });
 }
 
 bool has_pixel(C c) { return c.chosen.pixel.has_value(); }
@@ -147,36 +138,32 @@ void whole_region(C c)
 
 std::vector<Action> view_actions()
 {
-  const char* menu = "View";
   return {
-      {menu, "Flip", ImGuiKey_R, false, "While held: the reference, or the pinned run that is compared with", can_flip, flip,
-       why_not_comparable, flip_back},
-      {menu, "Difference", ImGuiKey_D, false, "The difference from it in false colour", can_difference, difference, why_not_comparable},
-      {menu, "Compare with the next", ImGuiKey_N, false, "The reference, then each pinned run", has_choice, compare_with_next, no_choice},
-      {menu, "Fit", ImGuiKey_F, false, "The whole picture in the panel", has_picture, fit},
-      {menu, "Actual size", ImGuiKey_1, false, "One pixel of the picture is one of the screen", has_picture, actual_size},
-      {menu, "Brighter", ImGuiKey_E, true, "Half a stop more exposure", always, expose<1>},
-      {menu, "Darker", shift | ImGuiKey_E, true, "Half a stop less exposure", always, expose<-1>},
-      {menu, "Exposure 0", ImGuiKey_0, false, "The picture as image.png shows it", always, as_it_is},
-      {menu, "Next layer", ImGuiKey_L, false, "All of the light, then each layer of the picture", has_layers, next_layer<1>, no_layers},
-      {menu, "Previous layer", shift | ImGuiKey_L, false, "The same the other way round", has_layers, next_layer<-1>, no_layers},
-      {menu, "Next tone curve", ImGuiKey_T, false, "As image.png, filmic, false colour", always, next_tone},
-      {menu, "Tone as image.png", 0, false, "sRGB, clipped at 1", always, tone<ToneCurve::standard>, nullptr, nullptr,
-       has_tone<ToneCurve::standard>},
-      {menu, "Filmic tone", 0, false, "A soft shoulder for pictures with a wide range", always, tone<ToneCurve::filmic>, nullptr, nullptr,
-       has_tone<ToneCurve::filmic>},
-      {menu, "False colour", 0, false, "The luminance as a colour, on a logarithmic scale", always, tone<ToneCurve::false_colour>, nullptr,
-       nullptr, has_tone<ToneCurve::false_colour>},
-      {menu, "Inspect pixel", ImGuiKey_I, false, "The pixel in the middle, or none; Alt and a click takes another", has_picture, inspect,
-       nullptr, nullptr, has_pixel},
-      {menu, "Pixel to the left", ImGuiKey_LeftArrow, true, "Inspect the pixel beside", can_step, move_pixel<-1, 0>},
-      {menu, "Pixel to the right", ImGuiKey_RightArrow, true, "Inspect the pixel beside", can_step, move_pixel<1, 0>},
-      {menu, "Pixel above", ImGuiKey_UpArrow, true, "Inspect the pixel above", can_step, move_pixel<0, -1>},
-      {menu, "Pixel below", ImGuiKey_DownArrow, true, "Inspect the pixel below", can_step, move_pixel<0, 1>},
-      {menu, "Copy pixel", 0, false, "The values of the pixel that is inspected, with tabs between", has_pixel, copy_pixel, no_pixel},
-      {menu, "Statistics of the picture", shift | ImGuiKey_I, false, "Of all its pixels, or none; Alt and a drag takes a rectangle",
-       has_picture, whole_region, nullptr, nullptr, has_region},
-      {menu, "Find a preset", ctrl | ImGuiKey_P, false, "The panel Presets, to type what is looked for", always,
+      {"Flip", ImGuiKey_R, "While held: the reference, or the pinned run that is compared with", can_flip, flip, why_not_comparable,
+       flip_back},
+      {"Difference", ImGuiKey_D, "The difference from it in false colour", can_difference, difference, why_not_comparable},
+      {"Compare with the next", ImGuiKey_N, "The reference, then each pinned run", has_choice, compare_with_next, no_choice},
+      {"Fit", ImGuiKey_F, "The whole picture in the panel", has_picture, fit},
+      {"Actual size", ImGuiKey_1, "One pixel of the picture is one of the screen", has_picture, actual_size},
+      repeating({"Brighter", ImGuiKey_E, "Half a stop more exposure", always, expose<1>}),
+      repeating({"Darker", shift | ImGuiKey_E, "Half a stop less exposure", always, expose<-1>}),
+      {"Exposure 0", ImGuiKey_0, "The picture as image.png shows it", always, as_it_is},
+      {"Next layer", ImGuiKey_L, "All of the light, then each layer of the picture", has_layers, next_layer<1>, no_layers},
+      {"Previous layer", shift | ImGuiKey_L, "The same the other way round", has_layers, next_layer<-1>, no_layers},
+      {"Next tone curve", ImGuiKey_T, "As image.png, filmic, false colour", always, next_tone},
+      tone_action("Tone as image.png", "sRGB, clipped at 1", ToneCurve::standard),
+      tone_action("Filmic tone", "A soft shoulder for pictures with a wide range", ToneCurve::filmic),
+      tone_action("False colour", "The luminance as a colour, on a logarithmic scale", ToneCurve::false_colour),
+      {"Inspect pixel", ImGuiKey_I, "The pixel in the middle, or none; Alt and a click takes another", has_picture, inspect, nullptr,
+       nullptr, has_pixel},
+      repeating({"Pixel to the left", ImGuiKey_LeftArrow, "Inspect the pixel beside", can_step, move_pixel<-1, 0>}),
+      repeating({"Pixel to the right", ImGuiKey_RightArrow, "Inspect the pixel beside", can_step, move_pixel<1, 0>}),
+      repeating({"Pixel above", ImGuiKey_UpArrow, "Inspect the pixel above", can_step, move_pixel<0, -1>}),
+      repeating({"Pixel below", ImGuiKey_DownArrow, "Inspect the pixel below", can_step, move_pixel<0, 1>}),
+      {"Copy pixel", 0, "The values of the pixel that is inspected, with tabs between", has_pixel, copy_pixel, no_pixel},
+      {"Statistics of the picture", shift | ImGuiKey_I, "Of all its pixels, or none; Alt and a drag takes a rectangle", has_picture,
+       whole_region, nullptr, nullptr, has_region},
+      {"Find a preset", ctrl | ImGuiKey_P, "The panel Presets, to type what is looked for", always,
        [](C c) {
          c.push(command::ShowPanel{"presets", true});
        }},

@@ -5,7 +5,6 @@
 
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {

@@ -8,9 +8,7 @@
 
 #include <glm/trigonometric.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 
 namespace nephroid::ui {
@@ -41,6 +39,11 @@ std::shared_ptr<const CutMap> cut(const ReadMap& map, const SegmentSettings& set
   return cut_map;
 }
 
+std::shared_ptr<const PixelsOfMap> under(const MapPictureSize& size, const ReadMap& map)
+{
+  return std::make_shared<PixelsOfMap>(PixelsOfMap{colours_under(size, map.picture), texels_under(size, map.cube.size)});
+}
+
 /// The method that has fewer points so far.
 std::size_t method_in_turn(const std::array<Quality, 2>& quality) { return quality[1].size() < quality[0].size() ? 1 : 0; }
 
@@ -67,36 +70,18 @@ WantedMap wanted_map(const preset::Preset& preset, const MapPictureSize& picture
   return wanted;
 }
 
-/// What steps leave for later ones.
-struct EnvironmentModel::Known {
-  std::vector<glm::dvec3> truth;           ///< irradiance of the whole map
-  std::shared_ptr<const ReadMap> under_of; ///< what lies under the pixels of pictures
-  MapPictureSize under_size;               ///< of this map and size
-  std::vector<Colour> colours;
-  std::vector<int> texels;
-};
-
-struct EnvironmentModel::Result {
-  ShownMap shown;
-  bool refused = false;
-};
-
 void EnvironmentModel::want(const WantedMap& wanted, TaskQueue& tasks)
 {
   wanted_ = wanted;
   const Step step = next();
   if (step == Step::none || tasks.busy(steps_)) return;
-  if (!known_) known_ = std::make_shared<Known>();
   tasks.start(
-      steps_, {"lights of the environment"},
-      [step, wanted, shown = shown_, known = known_] { return take_step(step, wanted, shown, *known); },
-      [this, step, wanted](Result result) {
-        shown_ = std::move(result.shown);
-        refused_ = result.refused ? std::optional(wanted) : std::nullopt;
-        if (result.refused) return;
-        if (step == Step::read) has_truth_ = false, ++maps_read_;
-        if (step == Step::truth) has_truth_ = true;
-        if (step == Step::cut) ++cuts_made_;
+      steps_, {"lights of the environment"}, [step, wanted, shown = shown_] { return take_step(step, wanted, shown); },
+      [this, step, wanted](ShownMap shown) {
+        shown_ = std::move(shown);
+        refused_ = shown_.error.empty() ? std::nullopt : std::optional(wanted);
+        maps_read_ += step == Step::read && !refused_;
+        cuts_made_ += step == Step::cut && !refused_;
       });
 }
 
@@ -111,15 +96,15 @@ EnvironmentModel::Step EnvironmentModel::next() const
   const std::shared_ptr<const CutMap> with = segments ? shown_.cut : nullptr;
   if (!shown_.picture || shown_.picture->size != wanted_->picture || shown_.picture->cut != with) return Step::draw;
   if (!segments) return Step::none;
-  if (!has_truth_) return Step::truth;
+  if (!shown_.truth) return Step::truth;
   if (!shown_.cut_error) return Step::error;
   return shown_.quality[1].size() < quality_lights.size() ? Step::quality : Step::none;
 }
 
-EnvironmentModel::Result EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMap shown, Known& known)
+ShownMap EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMap shown)
 {
   const auto error_of = [&](const environment::Segmentation& segmentation) {
-    return environment::irradiance_error(known.truth, segmentation);
+    return environment::irradiance_error(*shown.truth, segmentation);
   };
   try {
     if (step == Step::read) {
@@ -130,19 +115,15 @@ EnvironmentModel::Result EnvironmentModel::take_step(Step step, const WantedMap&
       shown.cut = cut(*shown.map, *wanted.segments);
       shown.cut_error.reset();
     } else if (step == Step::draw) {
-      if (known.under_of != shown.map || known.under_size != wanted.picture) {
-        known.colours = colours_under(wanted.picture, shown.map->picture);
-        known.texels = texels_under(wanted.picture, shown.map->cube.size);
-        known.under_of = shown.map;
-        known.under_size = wanted.picture;
-      }
       auto picture = std::make_shared<MapPicture>();
       picture->size = wanted.picture;
+      picture->under = shown.picture && shown.picture->size == wanted.picture ? shown.picture->under : under(wanted.picture, *shown.map);
       if (wanted.segments) picture->cut = shown.cut;
-      picture->rgba = drawn(wanted.picture, known.colours, known.texels, picture->cut ? picture->cut->region_of_texel : std::vector<int>());
+      picture->rgba = drawn(wanted.picture, picture->under->colours, picture->under->texels,
+                            picture->cut ? picture->cut->region_of_texel : std::vector<int>());
       shown.picture = std::move(picture);
     } else if (step == Step::truth) {
-      known.truth = environment::irradiances(shown.map->cube);
+      shown.truth = std::make_shared<std::vector<glm::dvec3>>(environment::irradiances(shown.map->cube));
     } else if (step == Step::error) {
       shown.cut_error = error_of(shown.cut->segmentation);
     } else {
@@ -151,13 +132,12 @@ EnvironmentModel::Result EnvironmentModel::take_step(Step step, const WantedMap&
       const SegmentSettings settings{.lights = quality_lights.at(points.size()), .method = static_cast<SegmentMethod>(method)};
       points.push_back(error_of(environment::segment(shown.map->cube, settings)));
     }
-    return {std::move(shown), false};
   } catch (const std::exception& error) {
     shown = {};
     shown.source = wanted.source;
     shown.error = error.what();
-    return {std::move(shown), true};
   }
+  return shown;
 }
 
 std::vector<RegionFigures> figures_of(const environment::Segmentation& segmentation, double radiance, double rotate_deg,

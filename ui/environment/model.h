@@ -43,8 +43,15 @@ struct CutMap {
   std::vector<int> region_of_texel;
 };
 
+/// What lies under the pixels of a picture of one size.
+struct PixelsOfMap {
+  std::vector<Colour> colours;
+  std::vector<int> texels;
+};
+
 struct MapPicture {
   MapPictureSize size;
+  std::shared_ptr<const PixelsOfMap> under;
   std::shared_ptr<const CutMap> cut; ///< whose regions it shows; null: none
   std::vector<unsigned char> rgba;
 };
@@ -60,7 +67,8 @@ struct ShownMap {
   std::shared_ptr<const CutMap> cut;
   std::optional<double> cut_error; ///< of cut: relative error of the irradiance over normals
   std::shared_ptr<const MapPicture> picture;
-  std::array<Quality, 2> quality; ///< by SegmentMethod, with the default threshold
+  std::shared_ptr<const std::vector<glm::dvec3>> truth; ///< irradiance of the whole map
+  std::array<Quality, 2> quality;                       ///< by SegmentMethod, with the default threshold
 };
 
 class EnvironmentModel {
@@ -77,17 +85,13 @@ public:
 
 private:
   enum class Step { none, read, cut, draw, truth, error, quality };
-  struct Known;
-  struct Result;
   Step next() const;
-  static Result take_step(Step step, const WantedMap& wanted, ShownMap shown, Known& known);
+  static ShownMap take_step(Step step, const WantedMap& wanted, ShownMap shown);
 
   std::optional<WantedMap> wanted_;
   std::optional<WantedMap> refused_; ///< what failed last
   ShownMap shown_;
-  bool has_truth_ = false; ///< known_ has the truth of shown_.map
   int maps_read_ = 0, cuts_made_ = 0;
-  std::shared_ptr<Known> known_; ///< of the step that is taken, else nobody's
   TaskKey steps_;
 };
 

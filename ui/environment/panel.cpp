@@ -4,12 +4,13 @@
 #include "base/counted.h"
 #include "environment/describe_settings.h"
 #include "environment/settings.h"
+#include "measure/run_curves.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <implot.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <tuple>
@@ -17,18 +18,29 @@
 namespace nephroid::ui {
 namespace {
 
+constexpr double to_percent = 100;
+constexpr double room = 1.3; ///< beside the outermost points, as a factor
+
+void plot_method(const std::string& name, const Quality& errors)
+{
+  std::vector<double> lights, values;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!(errors[i] > 0)) continue;
+    lights.push_back(quality_lights.at(i));
+    values.push_back(to_percent * errors[i]);
+  }
+  ImPlotSpec spec;
+  spec.LineWeight = 1.5f * scale();
+  spec.Marker = ImPlotMarker_Circle;
+  spec.MarkerSize = 2 * scale();
+  ImPlot::PlotLine(name.c_str(), lights.data(), values.data(), static_cast<int>(lights.size()), spec);
+}
+
 constexpr int fewest_lights = environment::face_count, most_lights = 4096; // as environment/describe_settings.h has it
 
 float em() { return ImGui::GetFontSize(); }
 
 bool is_engine_2(const preset::Preset& preset) { return &preset.settings.type() == &environment::settings_type(); }
-
-void label(const char* text)
-{
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(text);
-  ImGui::SameLine();
-}
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
@@ -44,6 +56,51 @@ std::string text_of(const RegionFigures& f, std::size_t number, std::size_t ligh
 }
 
 } // namespace
+
+std::array<double, 2> error_range(const ShownMap& shown)
+{
+  double least = 0, most = 0;
+  const auto widen = [&](double error) {
+    if (!(error > 0)) return;
+    least = least > 0 ? std::min(least, to_percent * error) : to_percent * error;
+    most = std::max(most, to_percent * error);
+  };
+  for (const Quality& errors : shown.quality)
+    for (const double error : errors) widen(error);
+  if (shown.cut_error) widen(*shown.cut_error);
+  if (most == 0) return {1, 10};
+  return {least / room, most * room};
+}
+
+void QualityPlot::draw(const ShownMap& shown, float height)
+{
+  if (!begin_plot("##quality", height)) return;
+  ImPlot::SetupAxes("lights", "irradiance error (%)");
+  ImPlot::SetupAxisScale(ImAxis_X1, ImPlotScale_Log10);
+  ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);
+  const double lights = shown.cut ? shown.cut->settings.lights : quality_lights.front();
+  const std::array<double, 2> range = error_range(shown);
+  ImPlot::SetupAxesLimits(quality_lights.front() / room, std::max<double>(quality_lights.back(), lights) * room, range[0], range[1],
+                          ImPlotCond_Always);
+  set_up_ticks(ImAxis_X1, {6, 8, 12, 16, 24, 32, 48, 64, 128, 256, 1024, 4096});
+  if (const std::vector<double> ticks = measure::round_levels(range[0], range[1]); ticks.size() > 1) set_up_ticks(ImAxis_Y1, ticks);
+  ImPlot::SetupLegend(ImPlotLocation_NorthEast);
+  ImPlot::SetupFinish();
+  for (const auto& choice : preset::choices<environment::SegmentMethod>)
+    plot_method(std::string(choice.name), shown.quality.at(static_cast<std::size_t>(choice.value)));
+  if (shown.cut_error && *shown.cut_error > 0) {
+    const double error = to_percent * *shown.cut_error;
+    ImPlotSpec spec;
+    spec.Marker = ImPlotMarker_Circle;
+    spec.MarkerSize = 5 * scale();
+    spec.MarkerFillColor = {0, 0, 0, 0};
+    spec.MarkerLineColor = {1, 1, 1, 1};
+    spec.LineWeight = 2 * scale();
+    ImPlot::PlotScatter("##now", &lights, &error, 1, spec);
+  }
+  area_ = PlotArea::in_hand();
+  ImPlot::EndPlot();
+}
 
 bool EnvironmentPanel::serves(const preset::Preset& preset) { return preset.scene.environment || is_engine_2(preset); }
 
@@ -115,106 +172,84 @@ void EnvironmentPanel::draw_toolbar(const Context& context)
   for (const auto& [layout, name, help] : {std::tuple{MapLayout::latitude_longitude, "latitude, longitude", "As the map's file, turned"},
                                            std::tuple{MapLayout::cube, "cube", "The six faces that are cut, as they are in the map"}}) {
     if (ImGui::RadioButton(name, layout_ == layout)) layout_ = layout;
-    places_.note(name);
-    ImGui::SetItemTooltip("%s", help);
+    places_.note(name, help);
     ImGui::SameLine();
   }
   const bool turns = environment_.type == preset::Environment::Type::file;
   ImGui::BeginDisabled(!turns);
   ImGui::SetNextItemWidth(-1);
-  double degrees = environment_.rotate_deg;
-  const double low = -3600, high = 3600;
-  const bool changed =
-      ImGui::DragScalar("##rotation", ImGuiDataType_Double, &degrees, 0.5f, &low, &high, "turned %.1f deg", ImGuiSliderFlags_AlwaysClamp);
-  follow_item(context, gestures_, "rotation", changed, "turn the environment",
-              [&](preset::Preset& p) { p.scene.environment->rotate_deg = degrees; });
+  draw_dragged(context, gestures_,
+               {"rotation", "turn the environment", environment_.rotate_deg, -3600, 3600, 0.5, "turned %.1f deg",
+                "About the vertical, counterclockwise as seen from above. Drag the picture sideways, or this; Ctrl and a click to type."},
+               [](preset::Preset& p, double degrees) { p.scene.environment->rotate_deg = degrees; });
   ImGui::EndDisabled();
-  ImGui::SetItemTooltip("About the vertical, counterclockwise as seen from above. Drag the picture sideways, or this; Ctrl and a click to "
-                        "type.");
 }
 
 /// What engine 2 cuts the map into.
 void EnvironmentPanel::draw_segmentation_row(const Context& context)
 {
   const environment::Settings& settings = environment::settings(*context.preset());
-  label("Lights");
+  draw_label("Lights");
   ImGui::SetNextItemWidth(-13 * em());
   int lights = settings.lights;
   const bool changed = ImGui::SliderScalar("##lights", ImGuiDataType_S32, &lights, &fewest_lights, &most_lights, "%d",
                                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
   follow_item(context, gestures_, "lights", changed, "number of lights",
               [&](preset::Preset& p) { environment::settings(p).lights = lights; });
-  ImGui::SetItemTooltip("How many directional lights the map is cut into. Ctrl and a click to type.");
+  tooltip("How many directional lights the map is cut into. Ctrl and a click to type.");
   ImGui::SameLine();
-  label("by");
+  draw_label("by");
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##method", std::string(preset::word(settings.segmentation)).c_str())) {
-    for (const auto& choice : preset::choices<environment::SegmentMethod>) {
-      const std::string name(choice.name);
-      if (ImGui::Selectable(name.c_str(), choice.value == settings.segmentation))
-        context.edit("method of segmentation", [&](preset::Preset& p) { environment::settings(p).segmentation = choice.value; });
-      places_.note("method:" + name);
-      ImGui::SetItemTooltip("%s", std::string(choice.sentence).c_str());
-    }
-    ImGui::EndCombo();
-  }
-  places_.note("method");
+  Combo list("##method", std::string(preset::word(settings.segmentation)), &places_, "method");
+  for (const auto& choice : preset::choices<environment::SegmentMethod>)
+    if (list.entry(std::string(choice.name), choice.value == settings.segmentation, std::string(choice.sentence)))
+      context.edit("method of segmentation", [&](preset::Preset& p) { environment::settings(p).segmentation = choice.value; });
 }
 
 /// How bright it is, and what is too dark.
 void EnvironmentPanel::draw_radiance_row(const Context& context)
 {
-  label("Radiance");
+  draw_label("Radiance");
   ImGui::SetNextItemWidth(cuts_ ? -13 * em() : -1);
-  double radiance = environment_.radiance;
-  const double low = 0, high = 1e9;
-  const bool brighter =
-      ImGui::DragScalar("##radiance", ImGuiDataType_Double, &radiance, static_cast<float>(std::max(1e-3, 0.005 * radiance)), &low, &high,
-                        "%.4g W/(m^2 sr)", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
-  follow_item(context, gestures_, "radiance", brighter, "radiance of the environment",
-              [&](preset::Preset& p) { p.scene.environment->radiance = radiance; });
-  ImGui::SetItemTooltip("Luminance of the map's colour (1, 1, 1): drag it, or type with Ctrl and a click.");
+  draw_dragged(context, gestures_,
+               {"radiance", "radiance of the environment", environment_.radiance, 0, 1e9, std::max(1e-3, 0.005 * environment_.radiance),
+                "%.4g W/(m^2 sr)", "Luminance of the map's colour (1, 1, 1): drag it, or type with Ctrl and a click.",
+                ImGuiSliderFlags_NoRoundToFormat},
+               [](preset::Preset& p, double radiance) { p.scene.environment->radiance = radiance; });
   if (!cuts_) return;
   ImGui::SameLine();
-  label("drop below");
+  draw_label("drop below");
   ImGui::SetNextItemWidth(-1);
   double threshold = environment::settings(*context.preset()).threshold;
   ImGui::InputDouble("##threshold", &threshold, 0, 0, "%.3g");
-  places_.note("threshold");
+  places_.note("threshold", "A region with no more than this part of the map's light, 0 to 1, is no light of its own.");
   if (ImGui::IsItemDeactivatedAfterEdit() && std::isfinite(threshold))
     context.edit("threshold of lights", [&](preset::Preset& p) { environment::settings(p).threshold = std::clamp(threshold, 0.0, 1.0); });
-  ImGui::SetItemTooltip("A region with no more than this part of the map's light, 0 to 1, is no light of its own.");
 }
 
 /// Where engine 2 shows caustics.
 void EnvironmentPanel::draw_caustics_row(const Context& context)
 {
   const environment::Settings& settings = environment::settings(*context.preset());
-  label("Caustics");
+  draw_label("Caustics");
   bool cast = settings.cast;
-  if (ImGui::Checkbox("on surfaces", &cast))
+  if (places_.checkbox("on surfaces", &cast, "on surfaces", "Whether caustics fall on surfaces: environment.cast."))
     context.edit("caustics on surfaces", [&](preset::Preset& p) { environment::settings(p).cast = cast; });
-  places_.note("on surfaces");
-  ImGui::SetItemTooltip("Whether caustics fall on surfaces: environment.cast.");
   ImGui::SameLine();
   bool in_air = settings.extinction > 0;
-  if (ImGui::Checkbox("in the air", &in_air))
+  if (places_.checkbox("in the air", &in_air, "in the air", "Whether a thin medium shows them as beams: environment.extinction."))
     context.edit("caustics in the air", [&](preset::Preset& p) {
       // Such that about a fifth of the light is lost on the way from what is looked at.
       const preset::Vec3 &at = p.scene.camera.position, &to = p.scene.camera.target;
       environment::settings(p).extinction = in_air ? 0.2 / std::hypot(to[0] - at[0], to[1] - at[1], to[2] - at[2]) : 0;
     });
-  places_.note("in the air");
-  ImGui::SetItemTooltip("Whether a thin medium shows them as beams: environment.extinction.");
   ImGui::SameLine();
   ImGui::BeginDisabled(settings.extinction <= 0);
   ImGui::SetNextItemWidth(-1);
-  double extinction = settings.extinction;
-  const double low = 1e-9, high = 1000;
-  const bool changed = ImGui::DragScalar("##extinction", ImGuiDataType_Double, &extinction, static_cast<float>(0.01 * extinction), &low,
-                                         &high, "extinction %.3g", ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat);
-  follow_item(context, gestures_, "extinction", changed, "extinction",
-              [&](preset::Preset& p) { environment::settings(p).extinction = extinction; });
+  draw_dragged(context, gestures_,
+               {"extinction", "extinction", settings.extinction, 1e-9, 1000, 0.01 * settings.extinction, "extinction %.3g",
+                "How thick that medium is: environment.extinction.", ImGuiSliderFlags_NoRoundToFormat},
+               [](preset::Preset& p, double extinction) { environment::settings(p).extinction = extinction; });
   ImGui::EndDisabled();
 }
 
@@ -287,6 +322,15 @@ void EnvironmentPanel::draw_table()
       cell(f.occluded ? percent(*f.occluded) : std::string("-"));
     }
   ImGui::EndTable();
+}
+
+std::vector<PanelEntry> environment_panels()
+{
+  return {{.name = "environment",
+           .title = EnvironmentPanel::title,
+           .make = make_panel<EnvironmentPanel>,
+           .serves = EnvironmentPanel::serves,
+           .front_for = "environment"}};
 }
 
 } // namespace nephroid::ui

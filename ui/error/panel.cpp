@@ -9,8 +9,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
-
 namespace nephroid::ui {
 namespace {
 
@@ -108,13 +106,12 @@ void ErrorPanel::draw_toolbar(const Context& context)
 {
   const char* const shown = contents_.metric.empty() ? nothing_measured : contents_.metric.c_str();
   ImGui::SetNextItemWidth(ImGui::CalcTextSize(shown).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetFrameHeight());
-  if (ImGui::BeginCombo("##metric", shown)) {
+  {
+    Combo list("##metric", shown);
     for (const std::string& metric : all_metrics(context))
-      if (ImGui::Selectable(metric.c_str(), metric == contents_.metric)) context.push(command::ChooseMetric{metric});
-    ImGui::EndCombo();
+      if (list.entry(metric, metric == contents_.metric)) context.push(command::ChooseMetric{metric});
   }
-  ImGui::SetItemTooltip(
-      "The error that is shown; docs/comparing.md defines each. Solid: against the reference; dashed: the run's own estimate.");
+  tooltip("The error that is shown; docs/comparing.md defines each. Solid: against the reference; dashed: the run's own estimate.");
   ImGui::SameLine();
   action_button("Pin this run", context);
   ImGui::SameLine();
@@ -130,8 +127,7 @@ void ErrorPanel::draw_toolbar(const Context& context)
   ImGui::BeginDisabled(plot_.follows());
   if (ImGui::Button("All")) plot_.follow();
   ImGui::EndDisabled();
-  ImGui::SetItemTooltip(
-      "Axes that show everything and grow with the run; a double click on the plot does the same. Wheel zooms, drag moves.");
+  tooltip("Axes that show everything and grow with the run; a double click on the plot does the same. Wheel zooms, drag moves.");
 }
 
 void ErrorPanel::draw_pins(const Context& context)
@@ -153,7 +149,7 @@ void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin)
   };
   bool shown = pin.shown;
   if (ImGui::Checkbox("##shown", &shown)) change({}, pin.colour, shown);
-  ImGui::SetItemTooltip("In the plot");
+  tooltip("In the plot");
   ImGui::SameLine();
   ImVec4 edited = ImGui::ColorConvertU32ToFloat4(pin.colour);
   if (ImGui::ColorEdit3("##colour", &edited.x, ImGuiColorEditFlags_NoInputs)) change({}, ImGui::ColorConvertFloat4ToU32(edited), pin.shown);

@@ -155,8 +155,7 @@ void ErrorPlot::draw(const PlotContents& contents, float height)
     if (run.lines->noise_floor) levels.push_back(*run.lines->noise_floor);
   }
   if (contents.target) levels.push_back(*contents.target);
-  constexpr ImPlotFlags flags = ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText;
-  if (!ImPlot::BeginPlot("##error against time", {-1, height}, flags)) return;
+  if (!begin_plot("##error against time", height)) return;
   // While nobody holds the axes they are as wide as what there is; else as they were drawn last, which the ticks go by.
   set_up_axes(contents, follows_ ? plot_range(lines, levels) : shown(), follows_);
   plot_runs(contents);

@@ -3,14 +3,12 @@
 
 #include "optics/wavelength.h"
 #include "preset/read.h"
-#include "ui/inspector/pixel.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
 #include <implot.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {
@@ -138,8 +136,7 @@ void InspectorPanel::draw_pixel(const Context& context)
   action_button("Copy pixel", context);
   places_.note("copy pixel");
   ImGui::SameLine();
-  if (ImGui::Button("Let go")) context.push(command::InspectPixel{});
-  places_.note("let go");
+  if (places_.button("Let go", "let go")) context.push(command::InspectPixel{});
   draw_neighbours(context);
   ImGui::SameLine();
   draw_pixel_table(rows);
@@ -191,8 +188,7 @@ void InspectorPanel::draw_spectrum(const Context& context)
   const ImVec2 size{-1, 13 * ImGui::GetFontSize()};
   if (ImPlot::BeginPlot("##spectrum", size, ImPlotFlags_NoMouseText)) {
     axis_.set_up();
-    ImPlot::SetupAxis(ImAxis_Y1, "W/m2/sr/nm", ImPlotAxisFlags_Lock | ImPlotAxisFlags_NoHighlight);
-    ImPlot::SetupAxisLimits(ImAxis_Y1, 0, most > 0 ? 1.1 * most : 1, ImPlotCond_Always);
+    set_up_fixed_axis(ImAxis_Y1, "W/m2/sr/nm", 0, most > 0 ? 1.1 * most : 1, ImPlotAxisFlags_Lock | ImPlotAxisFlags_NoHighlight);
     ImPlot::SetupFinish();
     if (spectrum->layers.size() > 1)
       for (const auto& layer : spectrum->layers)
@@ -203,9 +199,8 @@ void InspectorPanel::draw_spectrum(const Context& context)
         ImGui::SetTooltip("%ld nm: %.4g W/m2/sr/nm", w + optics::first_nm, total[static_cast<std::size_t>(w)]);
     ImPlot::EndPlot();
   }
-  if (ImGui::Button("Copy spectrum")) ImGui::SetClipboardText(spectrum_as_csv(*spectrum).c_str());
-  places_.note("copy spectrum");
-  ImGui::SetItemTooltip("A wavelength a row, as CSV");
+  if (places_.button("Copy spectrum", "copy spectrum", "A wavelength a row, as CSV"))
+    ImGui::SetClipboardText(spectrum_as_csv(*spectrum).c_str());
   for (const std::string& note : spectrum->notes) draw_wrapped(colour::quiet_text, note);
 }
 
@@ -214,11 +209,9 @@ void InspectorPanel::offer_spectra(const Context& context, const job::PixelSpect
 {
   draw_wrapped(colour::quiet_text, "No spectrum: " + none.why_not + ".");
   if (none.remedy.empty() || !context.preset()) return;
-  if (ImGui::Button("Keep spectra"))
+  if (places_.button("Keep spectra", "keep spectra", "Sets " + none.remedy + ", which starts the run again; one edit to undo"))
     context.push(
         command::Edit{"keep spectra", preset::parse_preset(preset::to_json(*context.preset()), context.preset()->source, {none.remedy})});
-  places_.note("keep spectra");
-  ImGui::SetItemTooltip("Sets %s, which starts the run again; one edit to undo", none.remedy.c_str());
 }
 
 void InspectorPanel::draw_region(const Context& context)
@@ -243,11 +236,9 @@ void InspectorPanel::draw_region(const Context& context)
                   {picture, other, pin ? pin->name : "reference", *region, context.preset() ? context.preset()->white : 1});
   const auto& statistics = statistics_.newest();
   if (!statistics) return draw_wrapped(colour::quiet_text, "The statistics are being made.");
-  if (ImGui::Button("Copy as CSV")) ImGui::SetClipboardText(to_csv(*statistics).c_str());
-  places_.note("copy region");
+  if (places_.button("Copy as CSV", "copy region")) ImGui::SetClipboardText(to_csv(*statistics).c_str());
   ImGui::SameLine();
-  if (ImGui::Button("Clear")) context.push(command::SelectRegion{});
-  places_.note("clear");
+  if (places_.button("Clear", "clear")) context.push(command::SelectRegion{});
   draw_region_tables(*statistics);
   draw_histogram(*statistics);
 }

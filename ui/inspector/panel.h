@@ -2,7 +2,7 @@
 // The panel Inspector: one pixel with all its values, its neighbours and its spectrum, and statistics of a rectangle of pixels. Which they
 // are the View's mouse says, and actions (commands InspectPixel and SelectRegion).
 #pragma once
-#include "ui/inspector/region.h"
+#include "ui/inspector/pixels.h"
 #include "ui/state/tone.h"
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"

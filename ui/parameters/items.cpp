@@ -17,15 +17,6 @@ using Kind = Outline::Kind;
 
 constexpr std::size_t many_rows = 50; ///< rows out of sight are not drawn where there are more
 
-/// "glass", "glass 2", "glass 3": the first that is not taken.
-template <class Taken>
-std::string free_name(const std::string& wanted, Taken taken)
-{
-  std::string name = wanted;
-  for (int i = 2; taken(name); ++i) name = fmt::format("{} {}", wanted, i);
-  return name;
-}
-
 double clamped(double value, const preset::Bounds& bounds) { return std::clamp(value, bounds.low, bounds.high); }
 
 /// After the last row as far as that is from the one before.
@@ -59,7 +50,7 @@ void rename_uses(const std::vector<Outline>& fields, Json& object, const std::st
 Json copy_of(const Json& items, Json item)
 {
   if (const auto name = item.find("name"); name != item.end() && name->is_string() && !name->get_ref<const std::string&>().empty())
-    *name = free_name(*name, [&](const std::string& n) {
+    *name = untaken_name(*name, [&](const std::string& n) {
       return std::any_of(items.begin(), items.end(), [&](const Json& other) { return other.value("name", "") == n; });
     });
   return item;
@@ -75,7 +66,7 @@ void ParametersPanel::draw_add(const Outline& o, const Json& value, const std::s
     Json more = value;
     std::string key = std::to_string(value.size());
     if (o.kind == Kind::map)
-      more[key = free_name("new", [&](const std::string& n) { return value.contains(n); })] = o.fresh();
+      more[key = untaken_name("new", [&](const std::string& n) { return value.contains(n); })] = o.fresh();
     else
       more.push_back(o.kind == Kind::list ? o.fresh() : next_row(o, value));
     ask("add to " + dotted(pointer), pointer, std::move(more));
@@ -109,14 +100,13 @@ void ParametersPanel::draw_item_buttons(const Json& items, const std::string& ke
       change(changed);
       ask(fmt::format("{} {}", name, dotted(at)), pointer, std::move(changed));
     }
-    note(at + ":" + name);
-    ImGui::SetItemTooltip("%s", help);
+    note(at + ":" + name, help);
   };
   button("+", "duplicate", "One more like this", [&](Json& changed) {
     if (is_list)
       changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(index) + 1, copy_of(items, items[index]));
     else
-      changed[free_name(key, [&](const std::string& n) { return items.contains(n); })] = items[key];
+      changed[untaken_name(key, [&](const std::string& n) { return items.contains(n); })] = items[key];
   });
   if (is_list) {
     ImGui::BeginDisabled(index == 0);

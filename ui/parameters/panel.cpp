@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/parameters/panel.h"
 
+#include "base/lower_case.h"
 #include "preset/origins.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
-
-#include <algorithm>
 
 namespace nephroid::ui {
 namespace {
@@ -56,24 +55,6 @@ Json given(const Outline& o)
   if (o.kind == Kind::integer) return static_cast<std::int64_t>(number);
   if (o.size > 0) return std::vector<double>(o.size, number);
   return o.object ? o.fresh() : o.kind == Kind::boolean ? Json(false) : o.kind == Kind::text ? Json("") : Json::array();
-}
-
-std::string lower(std::string text)
-{
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
-/// Each word of the search is in the text.
-bool holds(const std::string& text, const std::string& search)
-{
-  for (std::size_t from = 0; from < search.size();) {
-    const std::size_t end = std::min(search.find(' ', from), search.size());
-    if (text.find(search.substr(from, end - from)) == std::string::npos) return false;
-    from = end + 1;
-  }
-  return true;
 }
 
 std::string help_of(const Outline& o, const std::string& pointer)
@@ -153,13 +134,10 @@ void ParametersPanel::draw_top()
   input_text("##search", "Search names, units and help", search_, ImGuiInputTextFlags_EscapeClearsAll);
   note("search");
   ImGui::SameLine();
-  ImGui::Checkbox("Changed", &only_changed_);
-  note("changed");
-  ImGui::SetItemTooltip("Only fields that are not as they are by default");
+  places_.checkbox("Changed", &only_changed_, "changed", "Only fields that are not as they are by default");
   for (const auto& [edit, problem] : Problems(draft_.problems())) {
     ImGui::PushID(edit.c_str());
-    if (ImGui::SmallButton("Take back")) draft_.drop(edit);
-    note(edit + ":drop");
+    if (places_.small_button("Take back", edit + ":drop")) draft_.drop(edit);
     ImGui::SameLine();
     if (ImGui::SmallButton(("Show " + dotted(shown_at(problem))).c_str())) {
       search_.clear();
@@ -234,7 +212,7 @@ bool ParametersPanel::draw_label(const std::string& label, const std::string& po
 void ParametersPanel::draw_menu(const Outline& o, const Json& value, const std::string& pointer)
 {
   if (ImGui::IsItemHovered()) help_ = help_of(o, pointer);
-  ImGui::SetItemTooltip("%s", std::string(o.field.sentence).c_str());
+  tooltip(std::string(o.field.sentence));
   if (!ImGui::BeginPopupContextItem((pointer + ":menu").c_str())) return;
   if (ImGui::MenuItem("Reset", nullptr, false, reset(o, value) != value)) ask("reset " + dotted(pointer), pointer, reset(o, value));
   note(pointer + ":menu reset");
@@ -250,8 +228,7 @@ void ParametersPanel::draw_given(const Outline& o, const Json& value, const std:
     ask(fmt::format("{} {}", on ? "give" : "leave out", dotted(pointer)), pointer, on ? given(o) : Json());
     if (on) reveal_ = pointer;
   }
-  note(pointer + ":given");
-  ImGui::SetItemTooltip("Given or not");
+  note(pointer + ":given", "Given or not");
   ImGui::SameLine();
 }
 
@@ -261,8 +238,7 @@ void ParametersPanel::draw_reset(const Outline& o, const Json& value, const std:
   if (o.optional || standard == value) return;
   ImGui::SameLine();
   if (ImGui::ArrowButton(("##reset" + pointer).c_str(), ImGuiDir_Left)) ask("reset " + dotted(pointer), pointer, standard);
-  note(pointer + ":reset");
-  ImGui::SetItemTooltip("Reset: as it is by default");
+  note(pointer + ":reset", "Reset: as it is by default");
 }
 
 /// all: with what is wrong further inside.
@@ -292,9 +268,8 @@ bool ParametersPanel::is_wanted(const Outline& o, const Json& value, const std::
   if (o.of_engine && draft_.value()["engine"] != o.field.name) return false;
   if (!is_searching()) return true;
   if (only_changed_ && !is_changed(o, value)) return false;
-  const std::string wanted = lower(search_);
-  if (holds(lower(fmt::format("{} {} {}", dotted(pointer), o.field.sentence, o.field.unit)), wanted)) return true;
-  if (!o.object && wanted.starts_with(lower(dotted(pointer)) + ".")) return true; // a number of it
+  if (has_words(fmt::format("{} {} {}", dotted(pointer), o.field.sentence, o.field.unit), search_)) return true;
+  if (!o.object && lower_case(search_).starts_with(lower_case(dotted(pointer)) + ".")) return true; // a number of it
   if (value.is_null() || !o.object) return false;
   if (o.kind == Kind::object) return any_wanted(o, value, pointer);
   const auto items = value.items();

@@ -51,7 +51,7 @@ private:
   static std::string shown_at(const Problem& problem);
   void ask(std::string label, const std::string& pointer, Json value, bool live = false);
   void carry_out(const Context& context);
-  void note(const std::string& widget) { places_.note(widget); }
+  void note(const std::string& widget, const std::string& help = {}) { places_.note(widget, help); }
 
   // values.cpp: a field's own widget
   void draw_value(const Outline& o, const Json& value, const std::string& pointer);

@@ -202,14 +202,9 @@ void ParametersPanel::draw_choice(const std::string& pointer, const std::string&
                                   const std::function<void(std::string_view)>& choose, float width)
 {
   ImGui::SetNextItemWidth(width);
-  const bool open = ImGui::BeginCombo(("##" + pointer).c_str(), now.c_str(), ImGuiComboFlags_HeightLarge);
-  note(pointer);
-  for (const Outline::Word& word : words) {
-    if (open && ImGui::Selectable(std::string(word.name).c_str(), word.name == now) && word.name != now) choose(word.name);
-    if (open) note(pointer + ":" + std::string(word.name));
-    if ((open || word.name == now) && !word.sentence.empty()) ImGui::SetItemTooltip("%s", std::string(word.sentence).c_str());
-  }
-  if (open) ImGui::EndCombo();
+  Combo list(("##" + pointer).c_str(), now, &places_, pointer);
+  for (const Outline::Word& word : words)
+    if (list.entry(std::string(word.name), word.name == now, std::string(word.sentence)) && word.name != now) choose(word.name);
 }
 
 /// In the row of an object: which type it is, where there are several.
@@ -244,8 +239,7 @@ void ParametersPanel::draw_file_choice(const std::string& pointer)
     enter(beside);
     ImGui::OpenPopup(popup.c_str());
   }
-  note(pointer + ":files");
-  ImGui::SetItemTooltip("Choose a file");
+  note(pointer + ":files", "Choose a file");
   if (!ImGui::BeginPopup(popup.c_str())) return;
   if (ImGui::Button("Beside the preset")) enter(beside);
   ImGui::SameLine();

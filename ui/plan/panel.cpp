@@ -10,8 +10,6 @@
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-
 namespace nephroid::ui {
 namespace {
 
@@ -73,7 +71,7 @@ void draw_buffers(const plan::Plan& plan)
     ImGui::TableNextRow();
     cell(buffer.name);
     cell(plan::readable_bytes(buffer.bytes));
-    ImGui::SetItemTooltip("%s", fmt::format("{} bytes", buffer.bytes).c_str());
+    tooltip(fmt::format("{} bytes", buffer.bytes));
   }
   ImGui::EndTable();
 }
@@ -170,10 +168,8 @@ void PlanPanel::draw_box(const Context& context, const plan::Pass& pass, bool co
     const std::string label = (computed ? "compute " : "leave out ") + pass.name;
     context.push(command::Edit{label, with_field(*context.preset(), pass.field, computed ? pass.run_value : !pass.run_value)});
   }
-  places_.note(pass.name);
-  ImGui::SetItemTooltip("%s", fmt::format("Computed whatever the scene needs: {} = {}. Without the check the scene decides.",
-                                          path_of(pass.field), pass.run_value)
-                                  .c_str());
+  places_.note(pass.name, fmt::format("Computed whatever the scene needs: {} = {}. Without the check the scene decides.",
+                                      path_of(pass.field), pass.run_value));
 }
 
 } // namespace nephroid::ui

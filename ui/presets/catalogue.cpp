@@ -4,20 +4,17 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "base/lower_case.h"
 #include "image/image.h"
 #include "preset/choices.h"
 #include "preset/differences.h"
 #include "preset/read.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <cmath>
-#include <exception>
 #include <system_error>
-#include <utility>
 
 namespace nephroid::ui {
 namespace fs = std::filesystem;
@@ -104,17 +101,7 @@ std::vector<CatalogueEntry> read(const std::vector<RecentFile>& opened, const fs
   return entries;
 }
 
-bool holds_words(const CatalogueEntry& entry, const std::string& words)
-{
-  const std::string text = lower_case(fmt::format("{}\n{}\n{}\n{}", entry.name, entry.title, entry.description, entry.engine)),
-                    wanted = lower_case(words);
-  for (std::size_t from = 0; from < wanted.size();) {
-    const std::size_t end = std::min(wanted.find(' ', from), wanted.size());
-    if (text.find(wanted.substr(from, end - from)) == std::string::npos) return false;
-    from = end + 1;
-  }
-  return true;
-}
+std::string text_of(const CatalogueEntry& e) { return fmt::format("{}\n{}\n{}\n{}", e.name, e.title, e.description, e.engine); }
 
 constexpr std::size_t most_bytes = 1 << 20; ///< of a file
 constexpr int most_pixels = 512;            ///< of its edge
@@ -125,7 +112,7 @@ std::vector<std::size_t> matches(const std::vector<CatalogueEntry>& entries, con
 {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < entries.size(); ++i)
-    if ((filter.engine.empty() || entries[i].engine == filter.engine) && holds_words(entries[i], filter.words)) indices.push_back(i);
+    if ((filter.engine.empty() || entries[i].engine == filter.engine) && has_words(text_of(entries[i]), filter.words)) indices.push_back(i);
   std::stable_sort(indices.begin(), indices.end(), [&](std::size_t a, std::size_t b) {
     if (filter.newest_first && entries[a].time != entries[b].time) return entries[a].time > entries[b].time;
     return entries[a].name < entries[b].name;

@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
-
 namespace nephroid::ui {
 namespace {
 
@@ -96,22 +94,14 @@ void PresetsPanel::draw_top()
   places_.note("search");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(8 * em);
-  const bool choosing = ImGui::BeginCombo("##engine", filter_.engine.empty() ? "All engines" : filter_.engine.c_str());
-  places_.note("engine");
-  if (choosing) {
-    if (ImGui::Selectable("All engines", filter_.engine.empty())) filter_.engine.clear();
-    places_.note("engine:");
-    for (const engine::Engine* engine : engine::engines()) {
-      const std::string name(name_of(*engine));
-      if (ImGui::Selectable(name.c_str(), filter_.engine == name)) filter_.engine = name;
-      places_.note("engine:" + name);
-    }
-    ImGui::EndCombo();
+  {
+    Combo list("##engine", filter_.engine.empty() ? "All engines" : filter_.engine, &places_, "engine");
+    if (list.entry("All engines", filter_.engine.empty())) filter_.engine.clear();
+    for (const engine::Engine* engine : engine::engines())
+      if (const std::string name(name_of(*engine)); list.entry(name, filter_.engine == name)) filter_.engine = name;
   }
   ImGui::SameLine();
-  ImGui::Checkbox("Newest first", &filter_.newest_first);
-  places_.note("newest");
-  ImGui::SetItemTooltip("By when they were opened or written, else by name");
+  places_.checkbox("Newest first", &filter_.newest_first, "newest", "By when they were opened or written, else by name");
 }
 
 void PresetsPanel::follow_keys(const Context& context)
@@ -185,8 +175,7 @@ void PresetsPanel::draw_details(const Context& context)
     ImGui::TextDisabled("Click: what it is. Double click or Enter: open it. Arrows go through the list.");
     return;
   }
-  if (ImGui::Button("Open")) open(context, *entry);
-  places_.note("open");
+  if (places_.button("Open", "open")) open(context, *entry);
   ImGui::SameLine();
   ImGui::TextUnformatted(entry->title.empty() ? entry->name.c_str() : entry->title.c_str());
   if (!entry->problem.empty()) {

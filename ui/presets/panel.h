@@ -5,8 +5,6 @@
 #include "ui/presets/catalogue.h"
 #include "ui/widgets/panel.h"
 
-#include <string>
-
 namespace nephroid::ui {
 
 class PresetsPanel : public Panel {

@@ -11,9 +11,6 @@
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <utility>
-
 namespace nephroid::ui {
 namespace {
 
@@ -101,32 +98,24 @@ std::vector<RunRow> run_rows(const Context& context)
   return rows;
 }
 
-void PresetDifferences::begin_frame()
-{
-  std::erase_if(known_, [](const auto& known) { return !known->used; });
-  for (const auto& known : known_) known->used = false;
-}
-
 const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const Context& context)
 {
-  static const Known none, unknown{nullptr, nullptr, "its preset is not known", {}};
-  if (!row.preset) return row.pin == 0 ? none : unknown;
+  std::erase_if(known_, [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
+  Known& known = known_[row.pin];
   const auto present = context.edits ? context.edits->shared() : nullptr;
-  for (const auto& known : known_)
-    if (known->of == row.preset && known->present == present) {
-      known->used = true;
-      return *known;
-    }
-  Known texts{row.preset, present, {}, {}};
-  if (present) try {
-      const std::vector<preset::Difference> all = preset::differences(*present, *row.preset);
-      texts.in_short = all.empty() ? "as the present preset" : line_of(all.front());
-      if (all.size() > 1) texts.in_short += fmt::format(", {} more", all.size() - 1);
-      if (!all.empty()) texts.in_full = all_lines(all);
-    } catch (const Error& error) {
-      texts.in_short = error.line();
-    }
-  return *known_.emplace_back(std::make_unique<Known>(std::move(texts)));
+  if (known.of == row.preset && known.present == present && !known.in_short.empty()) return known;
+  known = {row.preset, present, {}, {}};
+  if (!row.preset && row.pin != 0) known.in_short = "its preset is not known";
+  if (!row.preset || !present) return known;
+  try {
+    const std::vector<preset::Difference> differences = preset::differences(*present, *row.preset);
+    known.in_short = differences.empty() ? "as the present preset" : line_of(differences.front());
+    if (differences.size() > 1) known.in_short += fmt::format(", {} more", differences.size() - 1);
+    if (!differences.empty()) known.in_full = all_lines(differences);
+  } catch (const Error& error) {
+    known.in_short = error.line();
+  }
+  return known;
 }
 
 command::Edit taken(const RunRow& row, const preset::Preset& present)
@@ -142,7 +131,6 @@ command::Edit taken(const RunRow& row, const preset::Preset& present)
 void RunsPanel::draw(const Context& context)
 {
   places_.clear();
-  differences_.begin_frame();
   rows_ = run_rows(context);
   action_button("Write a report...", context);
   places_.note("report");
@@ -210,10 +198,8 @@ void RunsPanel::draw_buttons(const Context& context, const RunRow& row)
 {
   const auto button = [&](const char* label, const std::string& place, bool enabled, const char* help) {
     ImGui::BeginDisabled(!enabled);
-    const bool pressed = ImGui::SmallButton(label);
+    const bool pressed = places_.small_button(label, place, help);
     ImGui::EndDisabled();
-    places_.note(place);
-    ImGui::SetItemTooltip("%s", help);
     return pressed;
   };
   const Comparison& comparison = context.comparing.comparison();

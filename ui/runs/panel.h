@@ -7,11 +7,7 @@
 #include "ui/state/context.h"
 #include "ui/widgets/panel.h"
 
-#include <cstdint>
 #include <limits>
-#include <memory>
-#include <string>
-#include <vector>
 
 struct ImVec2;
 
@@ -35,11 +31,9 @@ struct RunRow {
 /// The run in hand first, also before it has a picture, where a preset is open; then the pinned runs in their order.
 std::vector<RunRow> run_rows(const Context& context);
 
-/// Where presets differ from the present one, kept as long as both are asked for.
+/// Where presets differ from the present one, kept as long as both stay the same.
 class PresetDifferences {
 public:
-  /// Once a frame, before the others.
-  void begin_frame();
   /// In words for a row: "spectral.threshold_deg: 0.1 -> 0.5, 2 more"; the present one's value comes first.
   const std::string& in_short(const RunRow& row, const Context& context) { return of(row, context).in_short; }
   /// A line a difference.
@@ -49,10 +43,9 @@ private:
   struct Known {
     std::shared_ptr<const preset::Preset> of, present;
     std::string in_short, in_full;
-    bool used = true;
   };
   const Known& of(const RunRow& row, const Context& context);
-  std::vector<std::unique_ptr<Known>> known_;
+  std::map<std::uint64_t, Known> known_; ///< by RunRow::pin
 };
 
 /// A run's preset in place of the present one, as one edit: names of files mean what they meant; it stays in the present file. A run of

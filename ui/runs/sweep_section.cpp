@@ -13,14 +13,10 @@
 #include <fmt/ranges.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
-#include <set>
 #include <tuple>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -209,8 +205,7 @@ void SweepSection::draw(const Context& context, WidgetPlaces& places)
   draw_choice(places);
   draw_values(context, places);
   if (!problem_.empty()) draw_wrapped(colour::error, problem_);
-  const char* const run = context.sweep.active() ? "Stop the sweep" : "Start the sweep";
-  action_button(run, context);
+  action_button(context.sweep.active() ? "Stop the sweep" : "Start the sweep", context);
   places.note("sweep run");
   if (!context.sweep.runs().empty()) {
     ImGui::SameLine();
@@ -229,28 +224,25 @@ void SweepSection::draw_fields(const Context& context, WidgetPlaces& places)
   for (const preset::SweptField& field : sweep) {
     ImGui::PushID(field.key.c_str());
     const auto known = std::ranges::find(fields_, field.key, &NumberField::key);
-    if (ImGui::SmallButton("x")) {
+    if (places.small_button("x", "remove " + field.key, "Sweep it no more")) {
       preset::Sweep without = sweep;
       std::erase_if(without, [&](const preset::SweptField& swept) { return swept.key == field.key; });
       context.push(command::SetSweep{"sweep " + field.key + " no more", std::move(without)});
     }
-    places.note("remove " + field.key);
-    ImGui::SetItemTooltip("Sweep it no more");
     ImGui::SameLine();
     ImGui::BeginDisabled(known == fields_.end());
-    if (ImGui::SmallButton("Edit")) {
+    if (places.small_button("Edit", "edit " + field.key)) {
       choose(*known);
       typed_ = true;
       text_ = fmt::format("{}", fmt::join(field.values, ", "));
     }
     ImGui::EndDisabled();
-    places.note("edit " + field.key);
     ImGui::SameLine();
     constexpr std::size_t most = 100;
     const auto last = field.values.begin() + static_cast<std::ptrdiff_t>(std::min(most, field.values.size()));
     const std::string values = fmt::format("{}{}", fmt::join(field.values.begin(), last, ", "), field.values.size() > most ? ", ..." : "");
     ImGui::TextUnformatted(fmt::format("{}: {}", field.key, values).c_str());
-    ImGui::SetItemTooltip("%s", counted(field.values.size(), "value").c_str());
+    tooltip(counted(field.values.size(), "value"));
     ImGui::PopID();
   }
 }
@@ -274,8 +266,7 @@ void SweepSection::draw_choice(WidgetPlaces& places)
       choose(field);
       ImGui::CloseCurrentPopup();
     }
-    places.note("field " + field.key);
-    ImGui::SetItemTooltip("%s\n%s", field.sentence.c_str(), field.expected.c_str());
+    places.note("field " + field.key, field.sentence + '\n' + field.expected);
     first = false;
   }
   if (first) draw_text(colour::quiet_text, "No field that is one number has these letters");
@@ -293,9 +284,7 @@ void SweepSection::draw_values(const Context& context, WidgetPlaces& places)
   if (ImGui::RadioButton("List", typed_)) typed_ = true;
   places.note("sweep list");
   ImGui::SameLine();
-  const bool asked = ImGui::Button("Set");
-  places.note("sweep set");
-  ImGui::SetItemTooltip("These values are swept: an edit that can be undone");
+  const bool asked = places.button("Set", "sweep set", "These values are swept: an edit that can be undone");
   bool entered = false;
   if (typed_) {
     ImGui::SetNextItemWidth(-1);
@@ -320,9 +309,7 @@ void SweepSection::draw_values(const Context& context, WidgetPlaces& places)
     ImGui::InputInt("##count", &range_.count, 0);
     places.note("sweep count");
     words("values");
-    ImGui::Checkbox("log", &range_.logarithmic);
-    places.note("sweep log");
-    ImGui::SetItemTooltip("Each value as many times the one before");
+    places.checkbox("log", &range_.logarithmic, "sweep log", "Each value as many times the one before");
   }
   draw_wrapped(colour::quiet_text, field->expected);
   if (asked || entered) set(context);
@@ -357,7 +344,7 @@ void SweepSection::draw_queue(const Context& context)
       if (run.state == State::running && std::exchange(in_sight_, run.name) != run.name) ImGui::SetScrollHereY();
       ImGui::SameLine(4 * em);
       draw_text(run.state == State::failed ? colour::error : colour::text, run.why.empty() ? run.name : run.name + ": " + run.why);
-      if (!run.why.empty()) ImGui::SetItemTooltip("%s", run.why.c_str());
+      if (!run.why.empty()) tooltip(run.why);
     }
   }
   ImGui::EndChild();

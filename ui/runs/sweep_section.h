@@ -7,10 +7,6 @@
 #include "ui/state/context.h"
 #include "ui/widgets/widgets.h"
 
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 /// A field that holds a number.

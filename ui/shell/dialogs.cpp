@@ -11,9 +11,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 
 namespace nephroid::ui {
 namespace {
@@ -122,11 +120,9 @@ FileList::Picked FileList::draw(float width, float height)
   Picked picked = Picked::nothing;
   fs::path into;
   places_.clear();
-  if (ImGui::Button("Up")) into = folder_.parent_path();
-  places_.note("up");
+  if (places_.button("Up", "up")) into = folder_.parent_path();
   ImGui::SameLine();
-  if (const char* home = std::getenv("HOME"); home && ImGui::Button("Home")) into = home;
-  places_.note("home");
+  if (const char* home = std::getenv("HOME"); home && places_.button("Home", "home")) into = home;
   ImGui::SameLine();
   ImGui::TextUnformatted(folder_.c_str());
   if (ImGui::BeginChild("files", {width, height}, ImGuiChildFlags_Borders)) {
@@ -269,15 +265,14 @@ void Dialogs::draw_save(Commands& commands)
                        : picture ? Command(command::SavePicture{name_})
                                  : Command(command::SavePreset{name_, keep_parent_ && !parent_.empty()}));
   if (!parent_.empty()) {
-    ImGui::Checkbox("Keep the parent", &keep_parent_);
-    places_.note("keep the parent");
-    ImGui::SetItemTooltip("Write only what differs from '%s', so that the file follows its changes", parent_.c_str());
+    places_.checkbox("Keep the parent", &keep_parent_, "keep the parent",
+                     "Write only what differs from '" + parent_ + "', so that the file follows its changes");
     ImGui::SameLine();
     ImGui::TextDisabled("%s", parent_.c_str());
   }
   pick_file();
   if (ImGui::Button("Save into this folder")) name_ = (files_.folder() / std::filesystem::path(name_).filename()).string();
-  ImGui::SetItemTooltip("The name above, in the folder that is shown");
+  tooltip("The name above, in the folder that is shown");
   if (picture) ImGui::TextDisabled(".png: as shown, with this exposure; .exr: linear, with every layer");
   if (report) ImGui::TextDisabled("One page that opens in a browser; runs that are in no folder are kept in one beside it");
   if (folder) ImGui::TextDisabled("This is a folder: the name of a file in it is wanted.");

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -84,7 +83,7 @@ GlfwWindow::GlfwWindow(const std::string& title, std::array<int, 2> size) : wind
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.ConfigFlags |= ImGuiConfigFlags_DockingEnable | ImGuiConfigFlags_NavEnableKeyboard;
-  io.IniFilename = nullptr; // layouts are kept by ui/state/settings.h
+  io.IniFilename = nullptr; // the workbench keeps layouts (EngineLayout)
   add_font();
   ImGui_ImplGlfw_InitForOpenGL(window_, true);
   back_ends_ = ImGui_ImplOpenGL3_Init("#version 130");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The display side of the window: GLFW, OpenGL and Dear ImGui's two back ends, from opening to closing. Nothing of the workbench.
 #pragma once
-#include "ui/state/settings.h"
+#include "ui/state/commands.h"
 
 #include <array>
 #include <string>

@@ -14,7 +14,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace nephroid::ui {
@@ -215,7 +214,7 @@ void Palette::draw_entries(const Context& context)
       if (ImGui::Selectable(entry.name.c_str(), i == selected_)) choose(entry, context);
       ImGui::PopStyleColor();
       if (i == selected_ && moved) ImGui::SetScrollHereY();
-      ImGui::SetItemTooltip("%s", entry.help.c_str());
+      tooltip(entry.help);
       if (!entry.keys.empty()) {
         ImGui::SameLine(em * 37 - ImGui::CalcTextSize(entry.keys.c_str()).x);
         ImGui::TextDisabled("%s", entry.keys.c_str());

@@ -6,10 +6,7 @@
 #include "ui/widgets/action.h"
 #include "ui/widgets/widgets.h"
 
-#include <functional>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 

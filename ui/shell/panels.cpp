@@ -14,9 +14,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <algorithm>
-#include <vector>
-
 namespace nephroid::ui {
 namespace {
 

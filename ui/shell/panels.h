@@ -6,11 +6,7 @@
 #include "run/run.h"
 #include "ui/widgets/panel.h"
 
-#include <any>
-#include <memory>
 #include <span>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 

@@ -12,9 +12,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <utility>
-#include <vector>
-
 namespace nephroid::ui {
 namespace {
 
@@ -46,9 +43,7 @@ void draw_card(const engine::ShippedExample& card, const PictureTexture* picture
     ImGui::BeginGroup();
     ImGui::TextUnformatted(card.title);
     draw_wrapped(colour::quiet_text, card.sentence);
-    if (ImGui::Button("Open an example")) context.push(command::Open{file_of(card).string()});
-    places.note(card.preset);
-    ImGui::SetItemTooltip("%s", card.preset);
+    if (places.button("Open an example", card.preset, card.preset)) context.push(command::Open{file_of(card).string()});
     ImGui::EndGroup();
   }
   ImGui::EndChild();

@@ -6,10 +6,6 @@
 #include "ui/state/context.h"
 #include "ui/widgets/panel.h"
 
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 /// Names a card's button by its preset, for place_of.

@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace nephroid::ui {

@@ -6,8 +6,6 @@
 #include "ui/state/context.h"
 
 #include <span>
-#include <string>
-#include <vector>
 
 namespace nephroid::ui {
 

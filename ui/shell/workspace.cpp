@@ -7,12 +7,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <algorithm>
-#include <exception>
 #include <iterator>
-#include <span>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 namespace {

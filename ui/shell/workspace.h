@@ -8,12 +8,7 @@
 #include "ui/state/workbench.h"
 #include "ui/widgets/plots.h"
 
-#include <array>
-#include <memory>
-#include <optional>
-#include <string>
 #include <typeinfo>
-#include <vector>
 
 namespace nephroid::ui {
 

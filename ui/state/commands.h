@@ -6,13 +6,14 @@
 #include "preset/preset.h"
 #include "preset/read.h"
 #include "ui/state/selection.h"
-#include "ui/state/settings.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -55,6 +56,25 @@ struct Comparison {
 struct PixelRegion {
   std::array<int, 2> from{0, 0}, to{0, 0};
   bool operator==(const PixelRegion&) const = default;
+};
+
+// How a person set up the window: kept between runs of the program in one file.
+enum class Theme { dark, light };
+
+/// For the presets of one engine.
+struct EngineLayout {
+  std::string ini;              ///< where the panels are, in Dear ImGui's words; empty: where the engine begins with them
+  std::set<std::string> closed; ///< names of panels (shell/panels.h)
+  bool operator==(const EngineLayout&) const = default;
+};
+
+struct Settings {
+  static constexpr double smallest_text = 0.6, largest_text = 3;
+
+  Theme theme = Theme::dark;
+  double text_size = 1;                        ///< times the display's own scale; smallest_text..largest_text
+  std::map<std::string, EngineLayout> engines; ///< by an engine's name
+  bool operator==(const Settings&) const = default;
 };
 
 /// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
@@ -166,17 +186,9 @@ struct Nudged {
   std::uint64_t gesture = 0; ///< its number; 0: there was none
   bool operator==(const Nudged&) const = default;
 };
-/// Bookmarks of cameras. Going to one is an edit.
-struct AddBookmark {};
-struct GoToBookmark {
-  std::size_t index = 0;
-};
-struct RenameBookmark {
-  std::size_t index = 0;
-  std::string name;
-};
-struct DeleteBookmark {
-  std::size_t index = 0;
+/// Of cameras. Going to one is an edit.
+struct SetBookmarks {
+  std::vector<Bookmark> bookmarks;
 };
 struct Ask {
   Question question = Question::none;
@@ -242,10 +254,9 @@ using Command =
                  command::Flip, command::CompareWith, command::ShowDifference, command::ShowLayer, command::InspectPixel,
                  command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric,
                  command::ChooseMaterial, command::LoadDispersion, command::Select, command::SetHandles, command::Nudged,
-                 command::AddBookmark, command::GoToBookmark, command::RenameBookmark, command::DeleteBookmark, command::Ask,
-                 command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport, command::Dismiss,
-                 command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout,
-                 command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
+                 command::SetBookmarks, command::Ask, command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport,
+                 command::Dismiss, command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout,
+                 command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

@@ -6,11 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <exception>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {

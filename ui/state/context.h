@@ -6,7 +6,6 @@
 #include "ui/state/recent_files.h"
 #include "ui/state/run_in_hand.h"
 #include "ui/state/selection.h"
-#include "ui/state/settings.h"
 #include "ui/state/sweep_queue.h"
 #include "ui/state/tasks.h"
 #include "ui/state/undo.h"

@@ -7,11 +7,6 @@
 #include "run/reference.h"
 #include "run/run.h"
 
-#include <chrono>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace nephroid::ui {
 namespace {
 

@@ -17,15 +17,6 @@ namespace {
 
 constexpr double part_of_view = 0.4; ///< of what the camera sees at its target: the new object's longest edge
 
-/// To so many digits that count: 0.123456 -> 0.123.
-double rounded(double value, int digits)
-{
-  if (value == 0 || !std::isfinite(value)) return value;
-  const int decimals = digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
-  const double power = std::pow(10.0, std::abs(decimals));
-  return decimals >= 0 ? std::round(value * power) / power : std::round(value / power) * power;
-}
-
 /// The shorter side of what the camera sees in the plane of its target.
 double view_at_target(const preset::Camera& camera)
 {
@@ -33,16 +24,6 @@ double view_at_target(const preset::Camera& camera)
   for (std::size_t i = 0; i < 3; ++i) square += std::pow(camera.target[i] - camera.position[i], 2);
   const double height = 2 * std::sqrt(square) * std::tan(camera.fov_deg / 2 * std::numbers::pi / 180);
   return height * std::min(1.0, static_cast<double>(camera.resolution[0]) / camera.resolution[1]);
-}
-
-std::string new_name(const preset::Scene& scene, const std::string& wanted)
-{
-  const auto taken = [&](const std::string& name) {
-    return std::ranges::any_of(scene.objects, [&](const preset::Object& object) { return object.name == name; });
-  };
-  std::string name = wanted;
-  for (int number = 2; taken(name); ++number) name = fmt::format("{} {}", wanted, number);
-  return name;
 }
 
 std::string material_for(preset::Scene& scene)
@@ -75,7 +56,9 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh)
 {
   preset::Scene& scene = preset.scene;
   preset::Object object;
-  object.name = new_name(scene, mesh.file.stem().string());
+  object.name = untaken_name(mesh.file.stem().string(), [&](const std::string& name) {
+    return std::ranges::find(scene.objects, name, &preset::Object::name) != scene.objects.end();
+  });
   object.mesh = mesh.file.string();
   object.material = material_for(scene);
   const bool dielectric = scene.materials.at(object.material).type == preset::Material::Type::dielectric;
@@ -84,17 +67,16 @@ WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh)
                     "a closed mesh, as the preset's damaged_meshes is \"refuse\"", "mend it, or set damaged_meshes to \"report\"");
   const glm::dvec3 edges = mesh.box.high - mesh.box.low;
   const double longest = std::max({edges.x, edges.y, edges.z});
-  const double factor = rounded(part_of_view * view_at_target(scene.camera) / longest, 3);
+  const double factor = with_digits(part_of_view * view_at_target(scene.camera) / longest, 3);
   const glm::dvec3 middle = 0.5 * mesh.box.low + 0.5 * mesh.box.high;
-  const double grid_digits = std::floor(std::log10(factor * longest)) - 3; // a thousandth of its size
-  const double grid = std::pow(10.0, std::abs(grid_digits));
+  const double size = factor * longest;
+  const int decimals = size > 0 && std::isfinite(size) ? 3 - static_cast<int>(std::floor(std::log10(size))) : 0; // a thousandth of it
   for (std::size_t i = 0; i < 3; ++i) {
-    const double at = scene.camera.target[i] - factor * middle[static_cast<int>(i)];
     object.transform.scale[i] = factor;
-    object.transform.translate[i] = grid_digits < 0 ? std::round(at * grid) / grid : std::round(at / grid) * grid;
+    object.transform.translate[i] = rounded(scene.camera.target[i] - factor * middle[static_cast<int>(i)], decimals);
   }
   std::string note = fmt::format("{} is the object '{}' of '{}', scaled by {:g} to {:.3g} {}, at the camera's target",
-                                 mesh.file.filename().string(), object.name, object.material, factor, factor * longest, unit_word(preset));
+                                 mesh.file.filename().string(), object.name, object.material, factor, size, unit_word(preset));
   if (dielectric && !mesh.closed) note += "; it is not closed: light that enters may never leave";
   scene.objects.push_back(std::move(object));
   preset::check(preset, [&](const std::string& pointer) { return Place(mesh.file.string(), pointer); });

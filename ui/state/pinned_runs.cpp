@@ -6,8 +6,7 @@
 #include "measure/read_picture.h"
 #include "measure/run_files.h"
 #include "ui/state/run_record.h"
-
-#include <fmt/format.h>
+#include "ui/state/selection.h"
 
 #include <algorithm>
 #include <array>
@@ -39,7 +38,7 @@ std::filesystem::path history_file(const std::filesystem::path& path)
 
 const PinnedRun* PinnedRuns::find(std::uint64_t id) const
 {
-  const auto found = std::find_if(runs_.begin(), runs_.end(), [&](const PinnedRun& run) { return run.id == id; });
+  const auto found = std::ranges::find(runs_, id, &PinnedRun::id);
   return found == runs_.end() ? nullptr : &*found;
 }
 
@@ -48,11 +47,9 @@ PinnedRun* PinnedRuns::find_mutable(std::uint64_t id) { return const_cast<Pinned
 std::string PinnedRuns::own_name(const std::string& wanted, std::uint64_t id) const
 {
   const auto taken = [&](const std::string& name) {
-    return std::any_of(runs_.begin(), runs_.end(), [&](const PinnedRun& run) { return run.id != id && run.name == name; });
+    return std::ranges::any_of(runs_, [&](const PinnedRun& run) { return run.id != id && run.name == name; });
   };
-  std::string name = wanted;
-  for (int number = 2; taken(name); ++number) name = fmt::format("{} ({})", wanted, number);
-  return name;
+  return untaken_name(wanted, taken, "{} ({})");
 }
 
 std::uint32_t PinnedRuns::free_colour() const

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <optional>
 #include <system_error>
-#include <utility>
 
 namespace nephroid::ui {
 namespace fs = std::filesystem;

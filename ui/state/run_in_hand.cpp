@@ -5,7 +5,6 @@
 
 #include <filesystem>
 #include <mutex>
-#include <utility>
 
 namespace nephroid::ui {
 namespace {

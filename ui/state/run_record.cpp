@@ -17,14 +17,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <set>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 namespace nephroid::ui {
 namespace {

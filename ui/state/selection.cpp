@@ -7,9 +7,8 @@
 #include "preset/choices.h"
 #include "scene/materials.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace nephroid::ui {
@@ -75,6 +74,19 @@ std::string pointer_of(const Selection& selection)
   return {};
 }
 
+double rounded(double value, int decimals)
+{
+  const double power = std::pow(10.0, std::abs(decimals));
+  const double result = decimals >= 0 ? std::round(value * power) / power : std::round(value / power) * power;
+  return result == 0 ? 0.0 : result; // not -0
+}
+
+double with_digits(double value, int digits)
+{
+  if (value == 0 || !std::isfinite(value)) return value;
+  return rounded(value, digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
+}
+
 std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bookmark>& bookmarks)
 {
   std::string of = preset.name.empty() ? std::filesystem::path(preset.source).stem().string() : preset.name;
@@ -83,13 +95,6 @@ std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bo
     std::string name = fmt::format("{} {}", of, number);
     if (std::ranges::none_of(bookmarks, [&](const Bookmark& bookmark) { return bookmark.name == name; })) return name;
   }
-}
-
-preset::Camera seen_from(const Bookmark& bookmark, const preset::Camera& now)
-{
-  preset::Camera camera = bookmark.camera;
-  camera.resolution = now.resolution;
-  return camera;
 }
 
 std::vector<std::string> dielectrics(const preset::Preset& preset)

@@ -4,6 +4,8 @@
 #pragma once
 #include "preset/preset.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -40,6 +42,18 @@ std::string unit_word(const preset::Preset& preset);
 /// Where its fields are: "/scene/objects/0". Empty for nothing.
 std::string pointer_of(const Selection& selection);
 
+/// The wanted name, or the first of "NAME 2", "NAME 3", ... that is not taken(). pattern: of those, for fmt.
+template <class Taken>
+std::string untaken_name(const std::string& wanted, Taken taken, const char* pattern = "{} {}")
+{
+  std::string name = wanted;
+  for (int number = 2; taken(name); ++number) name = fmt::format(fmt::runtime(pattern), wanted, number);
+  return name;
+}
+/// To so many decimals; negative: to whole tens, hundreds. The nearest double to that decimal number, so that a file shows no more digits.
+double rounded(double value, int decimals);
+/// To so many digits that count.
+double with_digits(double value, int digits);
 /// A place to look from.
 struct Bookmark {
   std::string name;
@@ -49,8 +63,6 @@ struct Bookmark {
 
 /// "Prism 2": what the preset is called and the first number that no bookmark has with it.
 std::string new_bookmark_name(const preset::Preset& preset, const std::vector<Bookmark>& bookmarks);
-/// The bookmark's camera with the resolution of another: going somewhere does not change the picture's size.
-preset::Camera seen_from(const Bookmark& bookmark, const preset::Camera& now);
 
 /// Those that objects are made of, in the order of the objects, then the others by name.
 std::vector<std::string> dielectrics(const preset::Preset& preset);

@@ -6,11 +6,6 @@
 #include "ui/state/context.h"
 #include "ui/state/undo.h"
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 struct Session {

@@ -5,13 +5,6 @@
 #include "ui/state/session.h"
 #include "ui/state/workbench.h"
 
-#include <chrono>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 namespace nephroid::ui {
 
 class SessionKeeper {

@@ -6,9 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 namespace nephroid::ui {
 
 void SweepQueue::start(const preset::Preset& preset, const preset::Sweep& sweep)

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/tasks.h"
 
-#include <algorithm>
-#include <exception>
-
 namespace nephroid::ui {
 
 TaskQueue::~TaskQueue()

@@ -11,10 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <exception>
-#include <filesystem>
-
 namespace nephroid::ui {
 namespace {
 

@@ -11,12 +11,6 @@
 #include "ui/state/session.h"
 #include "ui/state/tasks.h"
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace nephroid::ui {
 
 class Workbench {
@@ -109,10 +103,7 @@ private:
   void carry_out(const command::Select& c);
   void carry_out(const command::SetHandles& c) { chosen_.handles = c.handles; }
   void carry_out(const command::Nudged& c) { chosen_.nudged = c; }
-  void carry_out(const command::AddBookmark&);
-  void carry_out(const command::GoToBookmark& c);
-  void carry_out(const command::RenameBookmark& c);
-  void carry_out(const command::DeleteBookmark& c);
+  void carry_out(const command::SetBookmarks& c) { chosen_.bookmarks = c.bookmarks; }
   void carry_out(const command::Ask& c);
   void carry_out(const command::SavePreset& c);
   void carry_out(const command::SavePicture& c);

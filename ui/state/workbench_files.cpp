@@ -133,34 +133,6 @@ void Workbench::carry_out(const command::Select& c)
   chosen_.nudged.at_s = command::Nudged{}.at_s; // another thing is another entry to undo
 }
 
-void Workbench::carry_out(const command::AddBookmark&)
-{
-  if (!edits_) return;
-  const std::string name = new_bookmark_name(edits_->current(), chosen_.bookmarks);
-  chosen_.bookmarks.push_back({name, edits_->current().scene.camera});
-  messages_.note("bookmarked the camera as \"" + name + "\"");
-}
-
-void Workbench::carry_out(const command::GoToBookmark& c)
-{
-  if (!edits_ || c.index >= chosen_.bookmarks.size()) return;
-  const Bookmark& bookmark = chosen_.bookmarks[c.index];
-  preset::Preset edited = edits_->current();
-  edited.scene.camera = seen_from(bookmark, edited.scene.camera);
-  if (edited.scene.camera == edits_->current().scene.camera) return;
-  carry_out(command::Edit{"go to " + bookmark.name, std::move(edited)});
-}
-
-void Workbench::carry_out(const command::RenameBookmark& c)
-{
-  if (c.index < chosen_.bookmarks.size() && !c.name.empty()) chosen_.bookmarks[c.index].name = c.name;
-}
-
-void Workbench::carry_out(const command::DeleteBookmark& c)
-{
-  if (c.index < chosen_.bookmarks.size()) chosen_.bookmarks.erase(chosen_.bookmarks.begin() + static_cast<std::ptrdiff_t>(c.index));
-}
-
 void Workbench::add_object(const DroppedMesh& mesh)
 {
   if (!edits_) return;

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {
@@ -26,14 +25,11 @@ void draw_layer_choice(const Context& context, WidgetPlaces& places)
 {
   const std::string& chosen = context.comparing.comparison().layer;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
-  if (!ImGui::BeginCombo("##layer", chosen.empty() ? "all" : chosen.c_str())) return places.note("layer");
-  if (ImGui::Selectable("all", chosen.empty())) context.push(command::ShowLayer{});
+  Combo list("##layer", chosen.empty() ? "all" : chosen, &places, "layer");
+  if (list.entry("all", chosen.empty())) context.push(command::ShowLayer{});
   if (const auto& snapshot = context.run.snapshot())
-    for (const job::Layer& layer : snapshot->picture->layers) {
-      if (ImGui::Selectable(layer.name.c_str(), chosen == layer.name)) context.push(command::ShowLayer{layer.name});
-      places.note("layer " + layer.name);
-    }
-  ImGui::EndCombo();
+    for (const job::Layer& layer : snapshot->picture->layers)
+      if (list.entry(layer.name, chosen == layer.name)) context.push(command::ShowLayer{layer.name});
 }
 
 void draw_tone_choice(const Context& context, WidgetPlaces& places)
@@ -41,16 +37,21 @@ void draw_tone_choice(const Context& context, WidgetPlaces& places)
   Look look = context.look();
   const auto now = static_cast<std::size_t>(look.tone);
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
-  if (!ImGui::BeginCombo("##tone", tones.at(now).name)) return places.note("tone");
-  for (std::size_t i = 0; i < tones.size(); ++i) {
-    if (ImGui::Selectable(tones[i].name, i == now)) {
+  Combo list("##tone", tones.at(now).name, &places, "tone");
+  for (std::size_t i = 0; i < tones.size(); ++i)
+    if (list.entry(tones[i].name, i == now, tones[i].help)) {
       look.tone = static_cast<ToneCurve>(i);
       context.push(command::SetLook{look});
     }
-    places.note("tone " + std::string(tones[i].name));
-    ImGui::SetItemTooltip("%s", tones[i].help);
-  }
-  ImGui::EndCombo();
+}
+
+/// In the line of what was drawn last. True where it was typed.
+bool draw_number(const char* label, double& value)
+{
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
+  ImGui::InputDouble(label, &value, 0, 0, "%.3g");
+  return ImGui::IsItemDeactivatedAfterEdit();
 }
 
 void draw_range_choice(const Context& context, const LuminanceRange& shown, WidgetPlaces& places)
@@ -61,22 +62,15 @@ void draw_range_choice(const Context& context, const LuminanceRange& shown, Widg
     context.push(command::SetLook{look});
   };
   bool automatic = !context.chosen.look.false_colour;
-  if (ImGui::Checkbox("Auto range", &automatic)) set(automatic ? std::nullopt : std::optional(shown));
-  places.note("auto range");
-  ImGui::SetItemTooltip("From where 1 %% of the pixels are below to where 99.9 %% are; else as typed here.");
+  if (places.checkbox("Auto range", &automatic, "auto range",
+                      "From where 1 % of the pixels are below to where 99.9 % are; else as typed here."))
+    set(automatic ? std::nullopt : std::optional(shown));
   LuminanceRange typed = shown;
   ImGui::BeginDisabled(automatic);
-  const auto number = [&](const char* label, double& value, const char* help) {
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
-    ImGui::InputDouble(label, &value, 0, 0, "%.3g");
-    const bool done = ImGui::IsItemDeactivatedAfterEdit();
-    places.note(label + 2);
-    ImGui::SetItemTooltip("%s", help);
-    return done;
-  };
-  const bool low = number("##low", typed.low, "W/m2/sr at the foot of the colours");
-  const bool high = number("##high", typed.high, "W/m2/sr at their end");
+  const bool low = draw_number("##low", typed.low);
+  places.note("low", "W/m2/sr at the foot of the colours");
+  const bool high = draw_number("##high", typed.high);
+  places.note("high", "W/m2/sr at their end");
   ImGui::EndDisabled();
   if (!low && !high) return;
   if (typed.low > 0 && typed.high > typed.low && std::isfinite(typed.high))
@@ -90,29 +84,22 @@ constexpr std::array metric_names{"CIELAB distance", "|a - b|", "relative |a - b
 
 void draw_other_choice(const Context& context)
 {
+  const std::uint64_t now = context.comparing.comparison().pin;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
-  if (!ImGui::BeginCombo("##other", other_name(context).c_str())) return;
-  const auto choice = [&](const char* name, std::uint64_t pin) {
-    if (ImGui::Selectable(name, context.comparing.comparison().pin == pin)) context.push(command::CompareWith{pin});
-  };
-  choice("Reference", 0);
-  for (const PinnedRun& run : context.comparing.pinned().all()) {
-    ImGui::PushID(static_cast<int>(run.id));
-    choice(run.name.c_str(), run.id);
-    ImGui::PopID();
-  }
-  ImGui::EndCombo();
+  Combo list("##other", other_name(context));
+  if (list.entry("Reference", now == 0)) context.push(command::CompareWith{0});
+  for (const PinnedRun& run : context.comparing.pinned().all())
+    if (list.entry(run.name, now == run.id)) context.push(command::CompareWith{run.id});
 }
 
 void draw_metric_choice(const Context& context)
 {
   const Comparison& comparison = context.comparing.comparison();
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
-  if (!ImGui::BeginCombo("##difference metric", metric_name(comparison.metric))) return;
+  Combo list("##difference metric", metric_name(comparison.metric));
   for (std::size_t i = 0; i < metric_names.size(); ++i)
-    if (const auto metric = static_cast<measure::DifferenceMetric>(i); ImGui::Selectable(metric_names[i], metric == comparison.metric))
+    if (const auto metric = static_cast<measure::DifferenceMetric>(i); list.entry(metric_names[i], metric == comparison.metric))
       context.push(command::ShowDifference{true, metric, 0}); // the values of another metric have another size
-  ImGui::EndCombo();
 }
 
 void draw_range_of_difference(const Context& context)
@@ -121,14 +108,11 @@ void draw_range_of_difference(const Context& context)
   const auto set = [&](double scale) { context.push(command::ShowDifference{true, comparison.metric, scale}); };
   const auto& map = context.comparing.difference();
   bool automatic = comparison.scale == 0;
+  double scale = automatic && map ? map->scale : comparison.scale;
   if (ImGui::Checkbox("Auto", &automatic)) set(automatic ? 0 : map ? map->scale : 1);
-  ImGui::SetItemTooltip("The colours end where 99 %% of the pixels are below; else at the value given here.");
-  ImGui::SameLine();
-  double scale = comparison.scale == 0 && map ? map->scale : comparison.scale;
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 5);
+  tooltip("The colours end where 99 % of the pixels are below; else at the value given here.");
   ImGui::BeginDisabled(comparison.scale == 0);
-  ImGui::InputDouble("##scale", &scale, 0, 0, "%.3g");
-  if (ImGui::IsItemDeactivatedAfterEdit() && scale > 0) set(scale);
+  if (draw_number("##scale", scale) && scale > 0) set(scale);
   ImGui::EndDisabled();
 }
 
@@ -136,71 +120,120 @@ void draw_selected_choice(const Context& context, WidgetPlaces& places)
 {
   const preset::Preset& preset = *context.preset();
   const Selection now = context.selection();
-  const std::string name = now == Selection{} ? "nothing" : name_of(preset, now);
   const float em = ImGui::GetFontSize();
   ImGui::SetNextItemWidth(std::clamp(ImGui::GetContentRegionAvail().x - 26 * em, 5 * em, 12 * em)); // the buttons have the rest
-  const bool open = ImGui::BeginCombo("##selected", name.c_str());
-  places.note("selected");
-  if (!open) return;
-  const auto choice = [&](const std::string& label, const Selection& selection) {
-    if (ImGui::Selectable(fmt::format("{}##{}", label, pointer_of(selection)).c_str(), selection == now))
-      context.push(command::Select{selection});
-    places.note("select " + label);
-  };
-  choice("nothing", {});
-  for (const Selection& selection : selectable(preset)) choice(name_of(preset, selection), selection);
-  ImGui::EndCombo();
+  Combo list("##selected", now == Selection{} ? "nothing" : name_of(preset, now), &places, "selected");
+  if (list.entry("nothing", now == Selection{})) context.push(command::Select{});
+  for (const Selection& selection : selectable(preset))
+    if (list.entry(name_of(preset, selection), selection == now)) context.push(command::Select{selection});
 }
 
 /// A button that stays down while what it does is on.
-void draw_toggle(const char* name, const Context& context, WidgetPlaces& places)
+void draw_toggle(const char* name, bool on, const Context& context)
 {
-  const bool on = action(name).checked(context);
   ImGui::SameLine();
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
   action_button(name, context);
   if (on) ImGui::PopStyleColor();
-  places.note(name);
 }
 
 void draw_bookmarks(const Context& context, WidgetPlaces& places)
 {
-  const std::vector<Bookmark>& bookmarks = context.chosen.bookmarks;
+  std::vector<Bookmark> bookmarks = context.chosen.bookmarks;
+  std::optional<std::size_t> deleted;
+  bool changed = false;
   for (std::size_t i = 0; i < bookmarks.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::Button("Go")) {
-      context.push(command::GoToBookmark{i});
+    if (places.button("Go", fmt::format("go {}", i), i < 9 ? fmt::format("Ctrl+{}", i + 1) : std::string())) {
+      go_to_bookmark(context, i);
       ImGui::CloseCurrentPopup();
     }
-    if (i < 9) ImGui::SetItemTooltip("Ctrl+%d", static_cast<int>(i) + 1);
-    places.note(fmt::format("go {}", i));
     ImGui::SameLine();
     std::string name = bookmarks[i].name;
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 14);
-    if (input_text("##name", "", name)) context.push(command::RenameBookmark{i, name});
+    if (input_text("##name", "", name) && !name.empty()) {
+      bookmarks[i].name = std::move(name);
+      changed = true;
+    }
     places.note(fmt::format("name {}", i));
     ImGui::SameLine();
-    if (ImGui::Button("x")) context.push(command::DeleteBookmark{i});
-    ImGui::SetItemTooltip("Delete this bookmark");
-    places.note(fmt::format("delete {}", i));
+    if (places.button("x", fmt::format("delete {}", i), "Delete this bookmark")) deleted = i;
     ImGui::PopID();
   }
+  if (deleted) bookmarks.erase(bookmarks.begin() + static_cast<std::ptrdiff_t>(*deleted));
+  if (changed || deleted) context.push(command::SetBookmarks{bookmarks});
   if (bookmarks.empty()) ImGui::TextDisabled("No camera is bookmarked yet.");
   action_button("Bookmark this camera", context);
   places.note("bookmark");
 }
 
+/// sRGB-encoded bytes of a position of 0 (the foot) .. 1.
+using ScaleColour = std::function<std::array<unsigned char, 3>(float position)>;
+/// A text at the left of a position.
+using ScaleMark = std::pair<double, std::string>;
+/// A colour beside the scale and what it means, below it.
+using ScaleKey = std::pair<std::array<unsigned char, 3>, std::string>;
+
+ImU32 opaque(const std::array<unsigned char, 3>& colour) { return IM_COL32(colour[0], colour[1], colour[2], 255); }
+
+void draw_bar(const ImVec2& corner, float width, float height, const ScaleColour& colour_at)
+{
+  constexpr int parts = 64;
+  for (int part = 0; part < parts; ++part) {
+    const float low = static_cast<float>(part) / parts, high = static_cast<float>(part + 1) / parts;
+    const ImU32 above = opaque(colour_at(high)), below = opaque(colour_at(low));
+    ImGui::GetWindowDrawList()->AddRectFilledMultiColor({corner.x, corner.y + (1 - high) * height},
+                                                        {corner.x + width, corner.y + (1 - low) * height}, above, above, below, below);
+  }
+}
+
+/// A scale of colours with its numbers, along the right edge of the picture. title: above; may be empty.
+void draw_scale(const Canvas& canvas, const std::string& title, std::span<const ScaleMark> marks, const ScaleColour& colour_at,
+                std::span<const ScaleKey> keys = {})
+{
+  const float em = ImGui::GetFontSize(), width = em, line = 1.2f * em;
+  const float head = title.empty() ? 0 : line, foot = line * static_cast<float>(keys.size());
+  const float height = std::max(std::min(16 * em, 0.7f * static_cast<float>(canvas.size[1]) - head - foot), 2 * em);
+  const ImVec2 corner{static_cast<float>(canvas.corner[0] + canvas.size[0]) - 2 * width,
+                      static_cast<float>(canvas.corner[1]) + 1.5f * em + head};
+  float text_width = ImGui::CalcTextSize(title.c_str()).x - 2 * width;
+  for (const auto& [position, text] : marks) text_width = std::max(text_width, ImGui::CalcTextSize(text.c_str()).x);
+  for (const auto& [colour, text] : keys) text_width = std::max(text_width, ImGui::CalcTextSize(text.c_str()).x);
+  ImDrawList* draw_list = ImGui::GetWindowDrawList();
+  draw_list->AddRectFilled({corner.x - text_width - em, corner.y - em - head}, {corner.x + 1.5f * width, corner.y + height + em + foot},
+                           colour::overlay, 0.4f * em);
+  const auto draw_text = [&](const std::string& text, float right, float middle) {
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+    draw_list->AddText({right - extent.x, middle - extent.y / 2}, colour::on_dark, text.c_str());
+  };
+  draw_bar(corner, width, height, colour_at);
+  if (!title.empty()) draw_text(title, corner.x + width, corner.y - head);
+  for (const auto& [position, text] : marks) draw_text(text, corner.x - 0.4f * em, corner.y + height * static_cast<float>(1 - position));
+  float y = corner.y + height + em;
+  for (const auto& [colour, text] : keys) {
+    draw_list->AddRectFilled({corner.x, y - 0.4f * em}, {corner.x + width, y + 0.4f * em}, opaque(colour));
+    draw_text(text, corner.x - 0.4f * em, y);
+    y += line;
+  }
+}
+
 } // namespace
+
+void go_to_bookmark(const Context& context, std::size_t index)
+{
+  const auto& [name, bookmarked] = context.chosen.bookmarks.at(index);
+  const preset::Camera& now = context.preset()->scene.camera;
+  preset::Camera camera = bookmarked;
+  camera.resolution = now.resolution; // going somewhere does not change the picture's size
+  if (camera != now) context.edit("go to " + name, [&](preset::Preset& p) { p.scene.camera = camera; });
+}
 
 void draw_look_bar(const Context& context, const Tone& tone, WidgetPlaces& places)
 {
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Layer");
-  ImGui::SameLine();
+  draw_label("Layer");
   draw_layer_choice(context, places);
   ImGui::SameLine(0, ImGui::GetFontSize());
-  ImGui::TextUnformatted("Tone");
-  ImGui::SameLine();
+  draw_label("Tone");
   draw_tone_choice(context, places);
   if (tone.curve != ToneCurve::false_colour) return;
   const float width = ImGui::CalcTextSize("Auto range").x + 14 * ImGui::GetFontSize();
@@ -220,17 +253,12 @@ std::string other_name(const Context& context)
 void draw_comparison_bar(const Context& context)
 {
   const Comparison& comparison = context.comparing.comparison();
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Compare");
-  ImGui::SameLine();
+  draw_label("Compare");
   draw_other_choice(context);
   ImGui::SameLine();
   action_button("Flip", context);
-  ImGui::SameLine();
-  if (comparison.difference) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-  action_button("Difference", context);
+  draw_toggle("Difference", comparison.difference, context);
   if (!comparison.difference) return;
-  ImGui::PopStyleColor();
   ImGui::SameLine();
   draw_metric_choice(context);
   ImGui::SameLine();
@@ -240,18 +268,51 @@ void draw_comparison_bar(const Context& context)
 void draw_selection_bar(const Context& context, WidgetPlaces& places)
 {
   if (!context.preset() || !has_scene(*context.preset())) return;
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Selected");
-  ImGui::SameLine();
+  draw_label("Selected");
   draw_selected_choice(context, places);
-  for (const char* tool : {"Move", "Turn", "Scale", "Own axes", "Snap"}) draw_toggle(tool, context, places);
+  for (const char* tool : {"Move", "Turn", "Scale", "Own axes", "Snap"}) {
+    draw_toggle(tool, action(tool).checked(context), context);
+    places.note(tool);
+  }
   ImGui::SameLine();
-  if (ImGui::Button("Cameras")) ImGui::OpenPopup("cameras");
-  ImGui::SetItemTooltip("Bookmarks of cameras");
-  places.note("cameras");
+  if (places.button("Cameras", "cameras", "Bookmarks of cameras")) ImGui::OpenPopup("cameras");
   if (!ImGui::BeginPopup("cameras")) return;
   draw_bookmarks(context, places);
   ImGui::EndPopup();
+}
+
+void draw_overlay(const ImVec2& at, const std::string& text)
+{
+  const float pad = ImGui::GetFontSize() * 0.4f;
+  const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+  ImDrawList* draw_list = ImGui::GetWindowDrawList();
+  draw_list->AddRectFilled(at, {at.x + extent.x + 2 * pad, at.y + extent.y + 2 * pad}, colour::overlay, pad);
+  draw_list->AddText({at.x + pad, at.y + pad}, colour::on_dark, text.c_str());
+}
+
+void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas)
+{
+  const double low = std::log10(range.low), high = std::log10(range.high);
+  std::vector<ScaleMark> marks{{0, fmt::format("{:.3g}", range.low)}, {1, fmt::format("{:.3g}", range.high)}};
+  for (int decade = static_cast<int>(std::ceil(low)); decade <= high; ++decade) // numbers that would touch the ends are left out
+    if (const double position = (decade - low) / (high - low); position > 0.06 && position < 0.94)
+      marks.emplace_back(position, fmt::format("{:.3g}", std::pow(10.0, decade)));
+  if (marks.size() > 12) marks.resize(2);
+  const std::array keys{ScaleKey{negative_colour, "negative"}, ScaleKey{infinite_colour, "infinite"}, ScaleKey{nan_colour, "NaN"}};
+  draw_scale(
+      canvas, "W/m2/sr", marks, [](float position) { return measure::map_colour(static_cast<double>(position)); }, keys);
+}
+
+void draw_difference_scale(const ShownDifference& map, const Canvas& canvas)
+{
+  const bool is_signed = measure::is_signed(map.of.metric);
+  constexpr int numbers = 5;
+  std::vector<ScaleMark> marks;
+  for (int i = 0; i < numbers; ++i) {
+    const double position = static_cast<double>(i) / (numbers - 1);
+    marks.emplace_back(position, fmt::format("{:.3g}", map.scale * (is_signed ? 2 * position - 1 : position)));
+  }
+  draw_scale(canvas, "", marks, [&](float position) { return measure::map_colour(static_cast<double>(position), is_signed); });
 }
 
 } // namespace nephroid::ui

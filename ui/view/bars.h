@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The View's rows of widgets above its picture. places: of widgets, for tests.
+// What stands about the View's picture: rows of widgets above it (places: of widgets, for tests), and over it a few words, and scales of
+// colours with their numbers along its right edge.
 #pragma once
 #include "measure/difference.h"
+#include "ui/state/comparing.h"
 #include "ui/state/context.h"
 #include "ui/state/tone.h"
+#include "ui/view/placement.h"
+#include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
 
 namespace nephroid::ui {
@@ -20,5 +24,14 @@ void draw_comparison_bar(const Context& context);
 /// What is selected: its name and a list to choose from, the tools that move it, and the list of camera bookmarks. Nothing where the preset
 /// has no scene. places: "selected", "cameras" and, in the list of bookmarks, "go 0", "name 0", "delete 0" and so on.
 void draw_selection_bar(const Context& context, WidgetPlaces& places);
+/// An edit of the preset that is open, where its camera is another. index: of Chosen::bookmarks.
+void go_to_bookmark(const Context& context, std::size_t index);
+
+/// Lines of text on a dark ground, its upper left corner at `at`.
+void draw_overlay(const ImVec2& at, const std::string& text);
+/// Luminance in W/m^2/sr, and the colours of what is no luminance.
+void draw_luminance_scale(const LuminanceRange& range, const Canvas& canvas);
+/// Of a map of differences.
+void draw_difference_scale(const ShownDifference& map, const Canvas& canvas);
 
 } // namespace nephroid::ui

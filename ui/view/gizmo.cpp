@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/gizmo.h"
 
-#include "ui/view/on_picture.h"
+#include "ui/view/bars.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -12,7 +12,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <tuple>
 

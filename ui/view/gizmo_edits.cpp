@@ -15,22 +15,10 @@ namespace {
 using Kind = Selection::Kind;
 using LightType = preset::Light::Type;
 
-/// To so many decimals; negative: to whole tens, hundreds. The nearest double to that decimal number, so that a file shows no more digits.
-double rounded(double value, int decimals)
+preset::Vec3 rounded_vector(const glm::dvec3& v, int decimals)
 {
-  const double power = std::pow(10.0, std::abs(decimals));
-  const double result = decimals >= 0 ? std::round(value * power) / power : std::round(value / power) * power;
-  return result == 0 ? 0.0 : result; // not -0
+  return {rounded(v.x, decimals), rounded(v.y, decimals), rounded(v.z, decimals)};
 }
-
-/// So many digits that count.
-double with_digits(double value, int digits)
-{
-  if (value == 0 || !std::isfinite(value)) return value;
-  return rounded(value, digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value)))));
-}
-
-preset::Vec3 rounded(const glm::dvec3& v, int decimals) { return {rounded(v.x, decimals), rounded(v.y, decimals), rounded(v.z, decimals)}; }
 
 glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& otherwise)
 {
@@ -198,8 +186,8 @@ void turn(preset::Preset& preset, const Selection& selection, const Grip& grip, 
     keep_pivot(transform, grip.pivot, grip.at);
   } else if (selection.kind == Kind::light) {
     preset::Light& light = preset.scene.lights[selection.index];
-    light.direction = rounded(rotation * to_vector(light.direction), 7);
-    if (light.type == LightType::area) light.up = rounded(rotation * to_vector(light.up), 7);
+    light.direction = rounded_vector(rotation * to_vector(light.direction), 7);
+    if (light.type == LightType::area) light.up = rounded_vector(rotation * to_vector(light.up), 7);
   }
 }
 

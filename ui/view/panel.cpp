@@ -3,7 +3,6 @@
 
 #include "ui/view/bars.h"
 #include "ui/view/camera.h"
-#include "ui/view/on_picture.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
@@ -11,7 +10,6 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {
@@ -87,15 +85,13 @@ void ViewPanel::draw_toolbar(const Context& context)
 {
   Look look = context.look();
   float stops = static_cast<float>(look.exposure_stops);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("Exposure");
-  ImGui::SameLine();
+  draw_label("Exposure");
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
   if (ImGui::SliderFloat("##exposure", &stops, -10, 10, "%+.2f stops", ImGuiSliderFlags_NoRoundToFormat)) {
     look.exposure_stops = stops;
     context.push(command::SetLook{look});
   }
-  ImGui::SetItemTooltip("Brighter E, darker Shift+E, as it is 0. Ctrl+click to type. The run goes on.");
+  tooltip("Brighter E, darker Shift+E, as it is 0. Ctrl+click to type. The run goes on.");
   if (!context.preset()) return;
   const auto& size = shown_.size;
   ImGui::SameLine(0, ImGui::GetFontSize());

@@ -6,7 +6,6 @@
 
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {

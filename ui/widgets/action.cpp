@@ -2,23 +2,22 @@
 #include "ui/widgets/action.h"
 
 #include "base/error.h"
+#include "ui/widgets/widgets.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include <algorithm>
-
 namespace nephroid::ui {
 namespace {
 
 /// Under the mouse: what it does or, where it is greyed, why.
-void tooltip(const Action& action, bool enabled, const Context& context, bool with_keys)
+void tooltip_of(const Action& action, bool enabled, const Context& context, bool with_keys)
 {
   std::string text = action.help;
   if (with_keys && action.shortcut) text += fmt::format(": {}", keys_of(action));
   if (!enabled && action.why_not) text += fmt::format(". Not now: {}.", action.why_not(context));
-  ImGui::SetItemTooltip("%s", text.c_str());
+  tooltip(text);
 }
 
 } // namespace
@@ -40,14 +39,14 @@ void action_button(const char* name, const Context& context)
   ImGui::BeginDisabled(!enabled);
   if (ImGui::Button(name)) meant.run(context);
   ImGui::EndDisabled();
-  tooltip(meant, enabled, context, true);
+  tooltip_of(meant, enabled, context, true);
 }
 
 void action_item(const Action& action, const Context& context)
 {
   const bool enabled = action.enabled(context);
   if (ImGui::MenuItem(action.name.c_str(), keys_of(action), action.checked && action.checked(context), enabled)) action.run(context);
-  tooltip(action, enabled, context, false);
+  tooltip_of(action, enabled, context, false);
 }
 
 } // namespace nephroid::ui

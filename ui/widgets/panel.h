@@ -7,11 +7,7 @@
 
 #include <imgui.h>
 
-#include <any>
-#include <memory>
 #include <string_view>
-#include <type_traits>
-#include <vector>
 
 namespace nephroid::run {
 struct LoadedScene;
@@ -28,6 +24,26 @@ public:
   virtual void draw(const Context& context) = 0;
 
 protected:
+  /// A number of the preset that is dragged, or typed with Ctrl and a click.
+  struct Dragged {
+    std::string widget; ///< its place's name
+    std::string label;  ///< of the edit
+    double value, low, high;
+    double step;        ///< a pixel of the mouse
+    const char* format; ///< as printf's
+    const char* help;
+    ImGuiSliderFlags flags = ImGuiSliderFlags_None; ///< beside AlwaysClamp
+  };
+  /// change(preset, value): one gesture from taking hold of it to letting go.
+  template <class Change>
+  void draw_dragged(const Context& context, Gestures& gestures, const Dragged& d, Change change)
+  {
+    double value = d.value;
+    const bool changed = ImGui::DragScalar(("##" + d.widget).c_str(), ImGuiDataType_Double, &value, static_cast<float>(d.step), &d.low,
+                                           &d.high, d.format, ImGuiSliderFlags_AlwaysClamp | d.flags);
+    follow_item(context, gestures, d.widget, changed, d.label, [&](preset::Preset& p) { change(p, value); });
+    tooltip(d.help);
+  }
   /// What the item drawn last changes of the preset, from taking hold of it to letting go one gesture. Its place is noted as `widget`.
   template <class Change>
   void follow_item(const Context& context, Gestures& gestures, const std::string& widget, bool changed, const std::string& label,
@@ -40,7 +56,7 @@ protected:
   }
 };
 
-/// A panel's line in the table: shell/panels.cpp has those for every engine, ui/ENGINE/panels.cpp those of one.
+/// A panel's line in the table: shell/panels.cpp has those for every engine; those of one are listed in ui/ENGINE.
 struct PanelEntry {
   std::string_view name;        ///< of the layout that has it in front; its folder's
   const char* title;            ///< of its tab
@@ -65,7 +81,7 @@ std::unique_ptr<Panel> make_panel([[maybe_unused]] WavelengthAxis& wavelengths)
     return std::make_unique<P>();
 }
 
-// The panels of each engine, in its folder's panels.cpp.
+// The panels of each engine, in its folder: panels.cpp where there are several, else beside the one.
 std::vector<PanelEntry> spectral_panels();
 std::vector<PanelEntry> environment_panels();
 std::vector<PanelEntry> inverse_panels();

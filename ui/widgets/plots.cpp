@@ -28,6 +28,17 @@ ImPlotSpec line_spec(std::uint32_t colour, float width)
   return spec;
 }
 
+bool begin_plot(const char* id, float height, int more)
+{
+  return ImPlot::BeginPlot(id, {-1, height}, ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText | more);
+}
+
+void set_up_fixed_axis(int axis, const char* label, double low, double high, int flags)
+{
+  ImPlot::SetupAxis(axis, label, flags);
+  ImPlot::SetupAxisLimits(axis, low, high, ImPlotCond_Always);
+}
+
 void set_up_ticks(int axis, const std::vector<double>& ticks)
 {
   std::vector<std::string> texts;

@@ -14,6 +14,10 @@ namespace nephroid::ui {
 /// A line of this colour (IM_COL32) and width in pixels at scale 1, which does not decide what axes show.
 ImPlotSpec line_spec(std::uint32_t colour, float width);
 
+/// ImPlot::BeginPlot in the window's free width, without title, menus and the mouse's place. more: further ImPlotFlags.
+bool begin_plot(const char* id, float height, int more = 0);
+/// An axis (ImAxis) of these ends, whatever the mouse does. flags: ImPlotAxisFlags.
+void set_up_fixed_axis(int axis, const char* label, double low, double high, int flags);
 /// Ticks with numbers: those that ImPlot puts on a log axis have none within a decade. axis: an ImAxis.
 void set_up_ticks(int axis, const std::vector<double>& ticks);
 

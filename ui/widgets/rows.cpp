@@ -198,15 +198,14 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
 RowGesture draw_row_buttons(const Row& added, const std::optional<std::size_t>& marked, WidgetPlaces& places)
 {
   RowGesture gesture;
-  if (ImGui::Button("Add")) gesture = {RowGesture::Kind::add, 0, added};
-  places.note("add");
-  ImGui::SetItemTooltip("One more in the widest gap; a double click on the plot adds one at the mouse");
+  if (places.button("Add", "add", "One more in the widest gap; a double click on the plot adds one at the mouse"))
+    gesture = {RowGesture::Kind::add, 0, added};
   ImGui::SameLine();
   ImGui::BeginDisabled(!marked);
-  if (ImGui::Button("Remove") || (marked && delete_pressed())) gesture = {RowGesture::Kind::remove, *marked, {}};
-  places.note("remove");
+  if (places.button("Remove", "remove", "The point that was clicked last; Delete, or a right click on a point, does the same") ||
+      (marked && delete_pressed()))
+    gesture = {RowGesture::Kind::remove, *marked, {}};
   ImGui::EndDisabled();
-  ImGui::SetItemTooltip("The point that was clicked last; Delete, or a right click on a point, does the same");
   return gesture;
 }
 

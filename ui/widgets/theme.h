@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the window looks: one font, neutral greys (a coloured surround would change how a picture's colours are seen), one accent.
 #pragma once
-#include "ui/state/settings.h"
+#include "ui/state/commands.h"
 
 #include <imgui.h>
 

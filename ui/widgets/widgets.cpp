@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/widgets/widgets.h"
 
+#include "base/lower_case.h"
 #include "ui/widgets/theme.h"
 
 #include <imgui.h>
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
 
 namespace nephroid::ui {
 namespace {
@@ -46,6 +51,15 @@ void draw_wrapped(std::uint32_t colour, const std::string& text)
   ImGui::PopTextWrapPos();
 }
 
+void draw_label(const char* text)
+{
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+  ImGui::SameLine();
+}
+
+void tooltip(const std::string& text) { ImGui::SetItemTooltip("%s", text.c_str()); }
+
 void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint) { hint_in(colour::quiet_text, corner, size, hint); }
 
 void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::string& hint)
@@ -63,7 +77,15 @@ void heading_cell(const char* text, const char* help)
 {
   ImGui::TableNextColumn();
   ImGui::TextDisabled("%s", text);
-  ImGui::SetItemTooltip("%s", help);
+  tooltip(help);
+}
+
+bool has_words(const std::string& text, const std::string& words)
+{
+  const std::string lower_text = lower_case(text);
+  std::istringstream wanted(lower_case(words));
+  return std::all_of(std::istream_iterator<std::string>(wanted), {},
+                     [&](const std::string& word) { return lower_text.find(word) != std::string::npos; });
 }
 
 bool delete_pressed()
@@ -90,6 +112,58 @@ void WidgetPlaces::note(const std::string& widget)
 {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   places_[widget] = {(low.x + high.x) / 2, (low.y + high.y) / 2};
+}
+
+void WidgetPlaces::note(const std::string& widget, const std::string& help)
+{
+  note(widget);
+  if (!help.empty()) tooltip(help);
+}
+
+bool WidgetPlaces::button(const char* label, const std::string& widget, const std::string& help)
+{
+  const bool pressed = ImGui::Button(label);
+  note(widget, help);
+  return pressed;
+}
+
+bool WidgetPlaces::small_button(const char* label, const std::string& widget, const std::string& help)
+{
+  const bool pressed = ImGui::SmallButton(label);
+  note(widget, help);
+  return pressed;
+}
+
+bool WidgetPlaces::checkbox(const char* label, bool* on, const std::string& widget, const std::string& help)
+{
+  const bool changed = ImGui::Checkbox(label, on);
+  note(widget, help);
+  return changed;
+}
+
+Combo::Combo(const char* label, const std::string& shown, WidgetPlaces* places, std::string widget)
+    : places_(places), widget_(std::move(widget)), open_(ImGui::BeginCombo(label, shown.c_str(), ImGuiComboFlags_HeightLarge))
+{
+  if (places_) places_->note(widget_);
+}
+
+Combo::~Combo()
+{
+  if (open_) ImGui::EndCombo();
+}
+
+bool Combo::entry(const std::string& text, bool is_now, const std::string& help)
+{
+  if (!open_) {
+    if (is_now && !help.empty()) tooltip(help);
+    return false;
+  }
+  ImGui::PushID(entries_++);
+  const bool chosen = ImGui::Selectable(text.c_str(), is_now);
+  ImGui::PopID();
+  if (places_) places_->note(widget_ + ":" + text);
+  if (!help.empty()) tooltip(help);
+  return chosen;
 }
 
 std::optional<std::array<double, 2>> WidgetPlaces::of(const std::string& widget) const

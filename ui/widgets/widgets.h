@@ -20,6 +20,10 @@ bool input_text(const char* label, const char* hint, std::string& text, int flag
 /// Text in a colour (IM_COL32); and wrapped at the window's edge.
 void draw_text(std::uint32_t colour, const std::string& text);
 void draw_wrapped(std::uint32_t colour, const std::string& text);
+/// Text before a widget, in its line.
+void draw_label(const char* text);
+/// What is said of the widget drawn last, under the mouse.
+void tooltip(const std::string& text);
 /// A quiet sentence in the middle of an area of the window, wrapped at nine tenths of its width; on a panel, or on the dark ground of
 /// pictures and plots.
 void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint);
@@ -29,6 +33,8 @@ void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::stri
 void cell(const std::string& text);
 void heading_cell(const char* text, const char* help);
 
+/// Whether each of the words is in the text, in whatever case: for what is typed to search by.
+bool has_words(const std::string& text, const std::string& words);
 /// Whether Delete is pressed in the window in hand and not in a text field.
 bool delete_pressed();
 
@@ -49,14 +55,37 @@ private:
 /// Where widgets were drawn, for tests that click on them.
 class WidgetPlaces {
 public:
-  /// Of the widget drawn last.
+  /// Of the widget drawn last, and its tooltip.
   void note(const std::string& widget);
+  void note(const std::string& widget, const std::string& help);
+  /// What Dear ImGui has by these names, noted as `widget`.
+  bool button(const char* label, const std::string& widget, const std::string& help = {});
+  bool small_button(const char* label, const std::string& widget, const std::string& help = {});
+  bool checkbox(const char* label, bool* on, const std::string& widget, const std::string& help = {});
   void clear() { places_.clear(); }
   /// Its middle on the screen; nothing where there is no such widget.
   std::optional<std::array<double, 2>> of(const std::string& widget) const;
 
 private:
   std::map<std::string, std::array<double, 2>> places_;
+};
+
+/// A list to choose from, open or not; as long as it lives its entries are drawn.
+class Combo {
+public:
+  /// shown: what is chosen now. widget: its name among places, where that is not null; entries are noted as "WIDGET:TEXT".
+  Combo(const char* label, const std::string& shown, WidgetPlaces* places = nullptr, std::string widget = {});
+  ~Combo();
+  Combo(const Combo&) = delete;
+  Combo& operator=(const Combo&) = delete;
+  /// True where it is chosen in this frame. is_now: it was chosen before. help: of the entry; while the list is closed, of the present one.
+  bool entry(const std::string& text, bool is_now, const std::string& help = {});
+
+private:
+  WidgetPlaces* places_;
+  std::string widget_;
+  bool open_ = false;
+  int entries_ = 0; ///< so far: two may have one text
 };
 
 /// What notes where its widgets are.

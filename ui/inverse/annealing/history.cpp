@@ -67,8 +67,7 @@ void HistoryPlot::draw(const HistoryLines& lines, bool log, float height)
   }
   x = follows_ ? with_room(x, false) : area_.x;
   y = follows_ ? with_room(y, log) : area_.y;
-  constexpr ImPlotFlags flags = ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText;
-  if (!ImPlot::BeginPlot(("##" + lines.name).c_str(), {-1, height}, flags)) return;
+  if (!begin_plot(("##" + lines.name).c_str(), height)) return;
   ImPlot::SetupAxes(lines.x.c_str(), lines.name.c_str());
   if (log) {
     ImPlot::SetupAxisScale(ImAxis_Y1, ImPlotScale_Log10);

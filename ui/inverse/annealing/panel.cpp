@@ -10,9 +10,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace nephroid::ui {
 namespace {
@@ -75,13 +73,10 @@ void AnnealingPanel::follow(const Context& context)
 
 void AnnealingPanel::draw_toolbar(const Context& context)
 {
-  ImGui::Checkbox("log", &look_.log);
-  places_.note("log");
-  ImGui::SetItemTooltip("Logarithmic values; else linear ones");
+  places_.checkbox("log", &look_.log, "log", "Logarithmic values; else linear ones");
   ImGui::SameLine();
-  ImGui::Checkbox("over seconds", &look_.seconds);
-  places_.note("over seconds");
-  ImGui::SetItemTooltip("Over seconds of work; else over what the search counts. A click on a name in the plot hides its line.");
+  places_.checkbox("over seconds", &look_.seconds, "over seconds",
+                   "Over seconds of work; else over what the search counts. A click on a name in the plot hides its line.");
   ImGui::SameLine();
   action_button("Show as glass", context);
   places_.note("show as glass");
@@ -157,34 +152,25 @@ void AnnealingPanel::draw_receivers(const Context& context)
 /// Between its neighbours.
 void AnnealingPanel::draw_distance(const Context& context, std::size_t receiver)
 {
-  const auto& all = settings_.receivers;
+  const auto& receivers = settings_.receivers;
   constexpr double apart = 0.1; // millimetres
-  const double low = receiver > 0 ? all[receiver - 1].distance_mm + apart : apart;
-  const double high = receiver + 1 < all.size() ? all[receiver + 1].distance_mm - apart : 1e6;
-  draw_dragged(context, receiver, name_of("distance", receiver),
-               {fmt::format("distance of receiver {}", receiver + 1), all[receiver].distance_mm, low, high, "%.4g mm",
+  const double low = receiver > 0 ? receivers[receiver - 1].distance_mm + apart : apart, now = receivers[receiver].distance_mm;
+  const double high = receiver + 1 < receivers.size() ? receivers[receiver + 1].distance_mm - apart : 1e6;
+  ImGui::SetNextItemWidth(-1);
+  draw_dragged(context, gestures_,
+               {name_of("distance", receiver), fmt::format("distance of receiver {}", receiver + 1), now, low, high, 0.005 * now, "%.4g mm",
                 "Distance from the facets: drag it, or type with Ctrl and a click. The search goes on from where it is."},
-               [](inverse::Receiver& r, double value) { r.distance_mm = value; });
+               [&](preset::Preset& p, double value) { inverse::settings(p).receivers.at(receiver).distance_mm = value; });
 }
 
 void AnnealingPanel::draw_weight(const Context& context, std::size_t receiver)
 {
-  draw_dragged(context, receiver, name_of("weight", receiver),
-               {fmt::format("weight of receiver {}", receiver + 1), settings_.receivers[receiver].weight, 0.01, 100, "weight %.3g",
-                "How much this picture counts beside the others: drag it, or type with Ctrl and a click."},
-               [](inverse::Receiver& r, double value) { r.weight = value; });
-}
-
-void AnnealingPanel::draw_dragged(const Context& context, std::size_t receiver, const std::string& widget, const Dragged& dragged,
-                                  void (*set)(inverse::Receiver&, double))
-{
-  double value = dragged.value;
+  const double now = settings_.receivers[receiver].weight;
   ImGui::SetNextItemWidth(-1);
-  const bool changed = ImGui::DragScalar(("##" + widget).c_str(), ImGuiDataType_Double, &value, static_cast<float>(0.005 * dragged.value),
-                                         &dragged.low, &dragged.high, dragged.format, ImGuiSliderFlags_AlwaysClamp);
-  follow_item(context, gestures_, widget, changed, dragged.name,
-              [&](preset::Preset& p) { set(inverse::settings(p).receivers.at(receiver), value); });
-  ImGui::SetItemTooltip("%s", dragged.help);
+  draw_dragged(context, gestures_,
+               {name_of("weight", receiver), fmt::format("weight of receiver {}", receiver + 1), now, 0.01, 100, 0.005 * now, "weight %.3g",
+                "How much this picture counts beside the others: drag it, or type with Ctrl and a click."},
+               [&](preset::Preset& p, double value) { inverse::settings(p).receivers.at(receiver).weight = value; });
 }
 
 void AnnealingPanel::draw_receiver_picture(const std::string& kind, std::size_t receiver, const ImVec2& size)
@@ -205,11 +191,10 @@ void AnnealingPanel::draw_receiver_picture(const std::string& kind, std::size_t 
   if (kind == "target")
     ImGui::SetItemTooltip("What receiver %zu shall show", receiver + 1);
   else if (kind == "receiver")
-    ImGui::SetItemTooltip("%s", fmt::format("What receiver {} shows, {}\ncost {}, relative {}", receiver + 1,
-                                            judged ? "judged" : "believed", figure("cost"), figure("rel_l2"))
-                                    .c_str());
+    tooltip(fmt::format("What receiver {} shows, {}\ncost {}, relative {}", receiver + 1, judged ? "judged" : "believed", figure("cost"),
+                        figure("rel_l2")));
   else
-    ImGui::SetItemTooltip("Red: too much light; blue: too little");
+    tooltip("Red: too much light; blue: too little");
 }
 
 void AnnealingPanel::draw_beam_row(const ImVec2& size)
@@ -221,9 +206,8 @@ void AnnealingPanel::draw_beam_row(const ImVec2& size)
     ImGui::Dummy(size);
     if (const job::Picture* picture = pictures_.find(name_of("receiver", j))) draw_beam_cells(beam_->prints[j], *picture, low, high);
     frame(low, high);
-    ImGui::SetItemTooltip("%s", fmt::format("The facet's beam on receiver {}: {:.3g} % of it, in {} x {} cells", j + 1,
-                                            100 * part_on(beam_->prints[j]), beam_->prints[j].x.size(), beam_->prints[j].y.size())
-                                    .c_str());
+    tooltip(fmt::format("The facet's beam on receiver {}: {:.3g} % of it, in {} x {} cells", j + 1, 100 * part_on(beam_->prints[j]),
+                        beam_->prints[j].x.size(), beam_->prints[j].y.size()));
   }
 }
 
@@ -235,11 +219,11 @@ void AnnealingPanel::draw_facets()
   const float longest = std::min(ImGui::GetContentRegionAvail().x / 3, std::max(8 * em(), 0.16f * ImGui::GetWindowHeight()));
   const ImVec2 size = fitted(layout_->size, longest);
   draw_facet_map("slopes", size);
-  ImGui::SetItemTooltip("Facets: red is how far light goes to the right, green how far up. A click shows where a facet's light goes.");
+  tooltip("Facets: red is how far light goes to the right, green how far up. A click shows where a facet's light goes.");
   if (pictures_.find("conflict")) {
     ImGui::SameLine();
     draw_facet_map("conflict", size);
-    ImGui::SetItemTooltip("Conflict: where facets find no slope that serves all pictures");
+    tooltip("Conflict: where facets find no slope that serves all pictures");
   }
   ImGui::SameLine();
   ImGui::BeginGroup();
@@ -284,6 +268,15 @@ std::array<double, 4> AnnealingPanel::area_of(const std::string& picture) const
 {
   const auto found = areas_.find(picture);
   return found == areas_.end() ? std::array<double, 4>{} : found->second;
+}
+
+std::vector<PanelEntry> inverse_panels()
+{
+  return {{.name = "annealing",
+           .title = AnnealingPanel::title,
+           .engine = "inverse",
+           .make = make_panel<AnnealingPanel>,
+           .front_for = "inverse"}};
 }
 
 } // namespace nephroid::ui

@@ -29,17 +29,8 @@ private:
   void draw_histories();
   void draw_figures(const job::Snapshot& snapshot) const;
   void draw_receivers(const Context& context);
-  struct Dragged {
-    std::string name; ///< "distance of receiver 2": of the edit
-    double value, low, high;
-    const char* format; ///< as printf's
-    const char* help;
-  };
   void draw_distance(const Context& context, std::size_t receiver);
   void draw_weight(const Context& context, std::size_t receiver);
-  /// A number of a receiver that is dragged; set(receiver's settings, value).
-  void draw_dragged(const Context& context, std::size_t receiver, const std::string& widget, const Dragged& dragged,
-                    void (*set)(inverse::Receiver&, double));
   void draw_receiver_picture(const std::string& kind, std::size_t receiver, const ImVec2& size);
   void draw_beam_row(const ImVec2& size);
   void draw_facets();

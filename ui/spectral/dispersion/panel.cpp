@@ -10,9 +10,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace nephroid::ui {
 namespace {
@@ -86,17 +84,16 @@ void DispersionPanel::follow(const Context& context)
 void DispersionPanel::draw_toolbar(const Context& context, const std::vector<std::string>& names)
 {
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
-  if (ImGui::BeginCombo("##material", shown_.c_str())) {
+  {
+    Combo list("##material", shown_);
     for (const std::string& name : names)
-      if (ImGui::Selectable(name.c_str(), name == shown_)) context.push(command::ChooseMaterial{name});
-    ImGui::EndCombo();
+      if (list.entry(name, name == shown_)) context.push(command::ChooseMaterial{name});
   }
-  ImGui::SetItemTooltip("The dielectric that is shown; files that are dropped on the window are loaded into it");
+  tooltip("The dielectric that is shown; files that are dropped on the window are loaded into it");
   ImGui::SameLine();
   const bool editable = dispersion_.type == Type::points;
   ImGui::BeginDisabled(editable || !model_.curve().error.empty());
-  if (ImGui::Button("Make editable")) make_editable(context);
-  places_.note("Make editable");
+  if (places_.button("Make editable", "Make editable")) make_editable(context);
   ImGui::EndDisabled();
   if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled | ImGuiHoveredFlags_DelayNormal))
     ImGui::SetTooltip("%s", editable ? "It is made of control points: drag them"
@@ -112,18 +109,15 @@ void DispersionPanel::draw_points_row(const Context& context)
     axis_.show_all(std::max(has ? points_.front()[0] : optics::first_nm, optics::first_nm - far_nm),
                    std::min(has ? points_.back()[0] : optics::last_nm, optics::last_nm + far_nm));
   }
-  ImGui::SetItemTooltip("The whole range; the wheel zooms, a drag moves. The wavelengths are shared with the other plots.");
+  tooltip("The whole range; the wheel zooms, a drag moves. The wavelengths are shared with the other plots.");
   ImGui::SameLine();
   ImGui::BeginDisabled(!model_.error().empty());
-  ImGui::Checkbox("Sorted", &sorted_);
-  places_.note("Sorted");
+  places_.checkbox("Sorted", &sorted_, "Sorted", "Wavelengths in the order in which they are clustered: by falling n");
   ImGui::EndDisabled();
-  ImGui::SetItemTooltip("Wavelengths in the order in which they are clustered: by falling n");
   if (points_.empty() || sorted_) return;
   ImGui::SameLine();
-  ImGui::Checkbox("Snap", &snap_);
-  places_.note("Snap");
-  ImGui::SetItemTooltip("%s", fmt::format("Dragged points keep to a grid: 1 nm, and {:.6g} of n at this zoom", plot_.grid()[1]).c_str());
+  places_.checkbox("Snap", &snap_, "Snap",
+                   fmt::format("Dragged points keep to a grid: 1 nm, and {:.6g} of n at this zoom", plot_.grid()[1]));
   ImGui::SameLine();
   const double nm = middle_of_widest_gap(points_);
   const auto index = static_cast<std::size_t>(std::clamp(std::lround(nm) - optics::first_nm, 0L, optics::wavelength_count - 1L));
@@ -180,7 +174,7 @@ void DispersionPanel::draw_methods(const Context& context) const
     ImGui::TableNextColumn();
     ImGui::BeginDisabled(spectral::settings(*context.preset()).method != choice.value);
     ImGui::TextUnformatted(name.c_str());
-    ImGui::SetItemTooltip("%s", std::string(choice.sentence).c_str());
+    tooltip(std::string(choice.sentence));
     cell(fmt::format("{}", figures.clustering.clusters.size()));
     cell(fmt::format("{:.3g}", figures.saving));
     cell(spread_text(figures.at_45));

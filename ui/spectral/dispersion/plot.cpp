@@ -174,12 +174,11 @@ int write_k(double value, char* text, int size, void*)
 void set_up_k(const DispersionContents& contents)
 {
   const std::vector<double>& k = contents.model->curve().line_k;
-  double most = 0;
+  double most = 1e-12;
   for (const double value : k)
     if (std::isfinite(value)) most = std::max(most, value);
-  ImPlot::SetupAxis(ImAxis_Y2, contents.absorbs ? "extinction coefficient k" : "extinction coefficient k (not used)",
-                    ImPlotAxisFlags_AuxDefault | ImPlotAxisFlags_NoMenus);
-  ImPlot::SetupAxisLimits(ImAxis_Y2, -0.15 * std::max(most, 1e-12), 1.1 * std::max(most, 1e-12), ImPlotCond_Always);
+  set_up_fixed_axis(ImAxis_Y2, contents.absorbs ? "extinction coefficient k" : "extinction coefficient k (not used)", -0.15 * most,
+                    1.1 * most, ImPlotAxisFlags_AuxDefault | ImPlotAxisFlags_NoMenus);
   ImPlot::SetupAxisFormat(ImAxis_Y2, write_k);
 }
 
@@ -210,18 +209,15 @@ RowGesture DispersionPlot::draw(const DispersionContents& contents, WavelengthAx
     n.assign(columns->n.begin(), columns->n.end());
   }
 
-  constexpr ImPlotFlags flags = ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText | ImPlotFlags_NoLegend;
-  if (!ImPlot::BeginPlot(sorted ? "##sorted" : "##dispersion", {-1, height}, flags)) return {};
+  if (!begin_plot(sorted ? "##sorted" : "##dispersion", height, ImPlotFlags_NoLegend)) return {};
   std::array<double, 2> x_ends{axis.low_nm(), axis.high_nm()};
   if (sorted) {
     x_ends = {-ranks_margin, optics::wavelength_count - 1 + ranks_margin};
-    ImPlot::SetupAxis(ImAxis_X1, "rank by falling n", ImPlotAxisFlags_Lock);
-    ImPlot::SetupAxisLimits(ImAxis_X1, x_ends[0], x_ends[1], ImPlotCond_Always);
+    set_up_fixed_axis(ImAxis_X1, "rank by falling n", x_ends[0], x_ends[1], ImPlotAxisFlags_Lock);
   } else
     axis.set_up();
   const std::array<double, 2> n_ends = handles_.held() ? area_.y : ends_of_n(contents, x, n, x_ends); // a held axis does not run away
-  ImPlot::SetupAxis(ImAxis_Y1, "index of refraction n", ImPlotAxisFlags_NoMenus);
-  ImPlot::SetupAxisLimits(ImAxis_Y1, n_ends[0], n_ends[1], ImPlotCond_Always);
+  set_up_fixed_axis(ImAxis_Y1, "index of refraction n", n_ends[0], n_ends[1], ImPlotAxisFlags_NoMenus);
   if (has_k) set_up_k(contents);
   ImPlot::SetupFinish();
   area_ = PlotArea::in_hand();

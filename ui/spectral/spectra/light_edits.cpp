@@ -5,6 +5,7 @@
 #include "optics/wavelength.h"
 #include "preset/field.h"
 #include "scene/materials.h"
+#include "ui/state/selection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,16 +18,10 @@ using Type = LightSpectrum::Type;
 
 constexpr int table_step_nm = 20;
 
-/// A preset is read by people: so many figures that nobody sees the rest.
-double to_figures(double value, int figures)
+double legal_power(double power)
 {
-  if (!(value > 0)) return 0;
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - (figures - 1));
-  // Of a unit below 1 the reciprocal is the exact number: 123 / 1000 and not 123 * 0.001, which is written with 17 figures.
-  return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;
+  return power > 0 ? with_digits(std::clamp(power, preset::power_bounds.low, preset::power_bounds.high), 4) : 0;
 }
-
-double legal_power(double power) { return to_figures(std::clamp(power, preset::power_bounds.low, preset::power_bounds.high), 4); }
 
 /// The spectrum's power at whole wavelengths, 1 the largest; 1 everywhere where it has none.
 double relative_power(const optics::Spectrum& values, int nm)

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {
@@ -89,22 +88,15 @@ void SpectraPanel::draw_light(const Context& context)
 void SpectraPanel::draw_light_choice(const preset::Preset& preset)
 {
   const auto name = [&](std::size_t i) { return fmt::format("Light {}, {}", i + 1, preset::word(preset.scene.lights[i].type)); };
-  if (preset.scene.lights.size() == 1) {
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted("Light");
-    return;
-  }
+  if (preset.scene.lights.size() == 1) return draw_label("Light");
   ImGui::SetNextItemWidth(10 * em());
-  if (ImGui::BeginCombo("##light", name(light_).c_str())) {
-    for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
-      if (ImGui::Selectable(name(i).c_str(), i == light_)) {
-        light_ = i;
-        editor_.unmark();
-        spectrum_ = sorted(preset.scene.lights[i].spectrum);
-      }
-    ImGui::EndCombo();
-  }
-  places_.note("light");
+  Combo list("##light", name(light_), &places_, "light");
+  for (std::size_t i = 0; i < preset.scene.lights.size(); ++i)
+    if (list.entry(name(i), i == light_)) {
+      light_ = i;
+      editor_.unmark();
+      spectrum_ = sorted(preset.scene.lights[i].spectrum);
+    }
 }
 
 void SpectraPanel::draw_spectrum_controls(const Context& context)
@@ -112,36 +104,32 @@ void SpectraPanel::draw_spectrum_controls(const Context& context)
   same_line_if_room(8 * em());
   if (has_rows(spectrum_)) {
     ImGui::TextDisabled("%s", counted(spectrum_.table.size(), "row").c_str());
-    ImGui::SetItemTooltip("Drag a point. A double click adds one, a click with the right button removes one.");
+    tooltip("Drag a point. A double click adds one, a click with the right button removes one.");
     ImGui::SameLine();
     follow_rows(context, draw_row_buttons(in_widest_gap(spectrum_), editor_.marked(), places_));
     return;
   }
-  if (ImGui::Button("Make editable"))
+  if (places_.button("Make editable", "make editable", "Rows every 20 nm, to drag"))
     context.edit(fmt::format("make rows of light {}", light_ + 1),
                  [&](preset::Preset& p) { p.scene.lights[light_].spectrum = as_table(spectrum_); });
-  places_.note("make editable");
-  ImGui::SetItemTooltip("Rows every 20 nm, to drag");
 }
 
 void SpectraPanel::draw_switches()
 {
   const Spectra& spectra = maker_.spectra();
   draw_switch("light", spectra_colour::light, switches_.light, true);
-  ImGui::SetItemTooltip("Power a nanometre of each light, relative to its largest; the one that is edited is filled");
+  tooltip("Power a nanometre of each light, relative to its largest; the one that is edited is filled");
   draw_switch("luminosity", spectra_colour::luminosity, switches_.luminosity);
-  ImGui::SetItemTooltip("How bright the eye sees each wavelength: CIE 1931 y, 1 at 555 nm");
+  tooltip("How bright the eye sees each wavelength: CIE 1931 y, 1 at 555 nm");
   draw_switch("u", spectra_colour::u, switches_.u);
-  ImGui::SetItemTooltip("How much a wavelength matters: (4.15) of the thesis where the effort is importance");
+  tooltip("How much a wavelength matters: (4.15) of the thesis where the effort is importance");
   draw_switch("iterations", spectra_colour::iterations, switches_.iterations);
-  ImGui::SetItemTooltip("How many of the preset's passes each cluster has, in the plot below");
-  places_.note("iterations");
+  places_.note("iterations", "How many of the preset's passes each cluster has, in the plot below");
   ImGui::PushID("reflectances"); // a material may be called "light"
   for (const ReflectanceCurve& curve : spectra.reflectances) {
     bool on = !switches_.hidden.contains(curve.material);
     const bool changed = draw_switch(curve.material, spectra_colour::of(curve.srgb), on);
-    ImGui::SetItemTooltip("%s", fmt::format("Reflectance of {}, in its colour under D65", curve.material).c_str());
-    places_.note("reflectance " + curve.material);
+    places_.note("reflectance " + curve.material, fmt::format("Reflectance of {}, in its colour under D65", curve.material));
     if (!changed) continue;
     if (on)
       switches_.hidden.erase(curve.material);
@@ -150,9 +138,7 @@ void SpectraPanel::draw_switches()
   }
   ImGui::PopID();
   same_line_if_room(4 * em());
-  if (ImGui::Button("Copy")) ImGui::SetClipboardText(to_csv(maker_.spectra()).c_str());
-  places_.note("copy");
-  ImGui::SetItemTooltip("Every curve as CSV, a row a wavelength");
+  if (places_.button("Copy", "copy", "Every curve as CSV, a row a wavelength")) ImGui::SetClipboardText(to_csv(maker_.spectra()).c_str());
 }
 
 void SpectraPanel::draw_plot(const Context& context, float height)
@@ -189,12 +175,10 @@ void SpectraPanel::draw_numbers() const
     ImGui::TextUnformatted(fmt::format("{} in {}, {} times fewer than the {} of 401 wavelengths x {}", counted(sum, "iteration"),
                                        counted(s.clusters.size(), "cluster"), times(s.brute_force(), sum), s.brute_force(), s.passes)
                                .c_str());
-  ImGui::SetItemTooltip(
-      "%s", fmt::format("{} times fewer by clusters, {} by what deals out the work.\nPhoton maps give a cluster so many passes; "
-                        "splats deal photons out in this proportion.",
-                        times(s.brute_force(), std::max<std::int64_t>(s.equal_effort(), 1)),
-                        times(s.equal_effort(), std::max<std::int64_t>(sum, 1)))
-                .c_str());
+  tooltip(fmt::format("{} times fewer by clusters, {} by what deals out the work.\nPhoton maps give a cluster so many passes; splats deal "
+                      "photons out in this proportion.",
+                      times(s.brute_force(), std::max<std::int64_t>(s.equal_effort(), 1)),
+                      times(s.equal_effort(), std::max<std::int64_t>(sum, 1))));
   ImGui::PopTextWrapPos();
 }
 

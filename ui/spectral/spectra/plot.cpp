@@ -38,8 +38,7 @@ using optics::wavelength_nm;
 
 constexpr double top = 1.1;         ///< of the upper axis: room to drag the largest point up
 constexpr float curves_part = 0.6f; ///< of the height, where both plots are shown
-constexpr ImPlotFlags plot_flags =
-    ImPlotFlags_NoTitle | ImPlotFlags_NoMenus | ImPlotFlags_NoMouseText | ImPlotFlags_NoLegend | ImPlotFlags_NoBoxSelect;
+constexpr ImPlotFlags plot_flags = ImPlotFlags_NoLegend | ImPlotFlags_NoBoxSelect;
 
 ImPlotSpec filled(ImPlotSpec spec)
 {
@@ -102,11 +101,7 @@ void plot_reflectances(const SpectraPlotContents& contents)
   }
 }
 
-void set_up_value_axis(const char* label, double highest)
-{
-  ImPlot::SetupAxis(ImAxis_Y1, label, ImPlotAxisFlags_Lock | ImPlotAxisFlags_NoHighlight);
-  ImPlot::SetupAxisLimits(ImAxis_Y1, 0, highest, ImPlotCond_Always);
-}
+constexpr ImPlotAxisFlags value_axis = ImPlotAxisFlags_Lock | ImPlotAxisFlags_NoHighlight;
 
 /// In the plot in hand.
 bool double_clicked() { return ImPlot::IsPlotHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left); }
@@ -194,9 +189,9 @@ RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, Wavelen
 {
   RowGesture gesture;
   const SpectraSwitches& shown = *contents.switches;
-  if (!ImPlot::BeginPlot("##spectra", {-1, height}, plot_flags)) return gesture;
+  if (!begin_plot("##spectra", height, plot_flags)) return gesture;
   axis.set_up(shown.iterations);
-  set_up_value_axis("relative", top);
+  set_up_fixed_axis(ImAxis_Y1, "relative", 0, top, value_axis);
   ImPlot::SetupFinish();
   if (shown.light) plot_lights(contents, unit_);
   if (shown.luminosity) plot_spectrum("luminosity", optics::cie_1931().y, 1, line_spec(spectra_colour::luminosity, 1.5f));
@@ -222,9 +217,9 @@ RowGesture SpectraPlot::draw_curves(const SpectraPlotContents& contents, Wavelen
 void SpectraPlot::draw_iterations(const SpectraPlotContents& contents, WavelengthAxis& axis, float height)
 {
   const Spectra& spectra = *contents.spectra;
-  if (!ImPlot::BeginPlot("##iterations", {-1, height}, plot_flags)) return;
+  if (!begin_plot("##iterations", height, plot_flags)) return;
   axis.set_up();
-  set_up_value_axis("iterations", 1.08 * static_cast<double>(std::max<std::int64_t>(spectra.passes, 1)));
+  set_up_fixed_axis(ImAxis_Y1, "iterations", 0, 1.08 * static_cast<double>(std::max<std::int64_t>(spectra.passes, 1)), value_axis);
   ImPlot::SetupFinish();
   draw_bars(spectra);
   draw_pointer(contents, pointed_);
