@@ -32,7 +32,7 @@ fuzz() {
   [ "$name" = gltf ] || [ "$name" = preset ] || [ "$name" = session ] && flags+=(-dict="$build/words")
   "$program" --seeds="$corpus" >"$log" 2>&1 && "$program" "${flags[@]}" "$corpus" >>"$log" 2>&1
   local status=$?
-  if [ "$status" -eq 0 ]; then
+  if [ "$status" -eq 0 ] && [ "$seconds" -gt 60 ]; then # of a corpus that will be fuzzed on
     mkdir "$TMPDIR/merged"
     "$program" -merge=1 -timeout=30 -rss_limit_mb=2048 "$TMPDIR/merged" "$corpus" >"$log-merge" 2>&1 && rm -rf "$corpus" && mv "$TMPDIR/merged" "$corpus"
   fi
