@@ -115,9 +115,8 @@ constexpr double floor_at = 1.5;
 /// The ball as if it were not there, over a floor, seen from above.
 preset::Preset over_nothing(bool ball)
 {
-  preset::Preset p =
-      floor_scene(floor_below, {"scene.materials.glass.dispersion=1", "environment.photons=300000", "environment.directions=26",
-                                "environment.resolution=96", "environment.spheres=16", "stop.passes=16"});
+  preset::Preset p = floor_scene(floor_below, {"scene.materials.glass.dispersion=1", "environment.photons=300000",
+                                               "environment.resolution=96", "environment.spheres=16", "stop.passes=16"});
   if (!ball) p.scene.objects[0].transform.translate = {0, 0, 1000};
   p.scene.lights = {lamp({0, -1, 0})};
   look(p, {0, 6, 0}, {0, -floor_at, 0}, 40);

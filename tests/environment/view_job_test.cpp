@@ -21,8 +21,8 @@ protected:
   preset::Preset lit() const
   {
     preset::Preset p = ball_and(facing_quad("floor", {0, -1.5, 0}, {0, 1, 0}, 8),
-                                {"scene.camera.resolution=[128, 96]", "stop.passes=2", "environment.directions=26",
-                                 "environment.photons=4000", "environment.spheres=4", "environment.resolution=16"});
+                                {"scene.camera.resolution=[128, 96]", "stop.passes=2", "environment.photons=4000", "environment.spheres=4",
+                                 "environment.resolution=16"});
     p.scene.environment.emplace();
     p.scene.environment->file = (cache.path() / "map.exr").string();
     p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};
