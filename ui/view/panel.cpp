@@ -2,7 +2,6 @@
 #include "ui/view/panel.h"
 
 #include "ui/view/bars.h"
-#include "ui/view/camera.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
