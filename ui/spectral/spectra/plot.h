@@ -3,9 +3,7 @@
 // axis. The rows of the light that is edited are points that can be dragged.
 #pragma once
 #include "ui/spectral/spectra/curves.h"
-#include "ui/spectral/spectra/light_edits.h"
 #include "ui/widgets/plots.h"
-#include "ui/widgets/rows.h"
 #include "ui/widgets/theme.h"
 
 namespace nephroid::ui {
