@@ -63,7 +63,6 @@ public:
 
 private:
   void begin(Workbench& workbench);
-  void begin_files(Workbench& workbench);
   bool pick_file();
   void draw_open(Commands& commands);
   void draw_open_history(Commands& commands);
