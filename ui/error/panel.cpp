@@ -97,7 +97,7 @@ void ErrorPanel::draw(const Context& context)
   plot_.draw(contents_, std::max(height - pins - ImGui::GetStyle().ItemSpacing.y, 8 * em));
   if (contents_.runs.empty()) {
     const auto& [x, y, width, plot_height] = plot_.area();
-    draw_hint_on_dark(vec({x, y}), vec({width, plot_height}), empty_hint(context));
+    draw_hint(colour::quiet_on_dark, vec({x, y}), vec({width, plot_height}), empty_hint(context));
   }
   if (pins == 0) return;
   if (ImGui::BeginChild("pins"))

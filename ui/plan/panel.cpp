@@ -105,7 +105,7 @@ void PlanPanel::draw(const Context& context)
   const plan::Plan* plan = context.run.plan().get();
   if (!plan) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    draw_hint(corner, ImGui::GetContentRegionAvail(), "The plan is being made");
+    draw_hint(colour::quiet_text, corner, ImGui::GetContentRegionAvail(), "The plan is being made");
     return;
   }
   read_fields(context);
