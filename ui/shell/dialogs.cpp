@@ -101,19 +101,16 @@ void FileList::go(fs::path folder)
   tasks_->forget(reading_); // a folder whose disk hangs keeps no other one waiting
   tasks_->start(
       reading_, {"reading " + folder_.string()}, [folder = folder_, endings = endings_] { return read(folder, endings); },
-      [this](Read of_folder) { take(std::move(of_folder)); });
-}
-
-void FileList::take(Read folder)
-{
-  entries_ = std::move(folder.entries);
-  note_.clear();
-  if (!folder.error.empty())
-    note_ = "This folder cannot be read: " + folder.error;
-  else if (folder.cut)
-    note_ = fmt::format("There are more than {} files here: type the name", most_entries);
-  else if (entries_.empty())
-    note_ = "Nothing of the kind that is wanted";
+      [this](Read of_folder) {
+        entries_ = std::move(of_folder.entries);
+        note_.clear();
+        if (!of_folder.error.empty())
+          note_ = "This folder cannot be read: " + of_folder.error;
+        else if (of_folder.cut)
+          note_ = fmt::format("There are more than {} files here: type the name", most_entries);
+        else if (entries_.empty())
+          note_ = "Nothing of the kind that is wanted";
+      });
 }
 
 FileList::Picked FileList::draw(float width, float height)

@@ -44,7 +44,6 @@ private:
   };
   static Read read(const std::filesystem::path& folder, const std::vector<std::string>& endings);
   void go(std::filesystem::path folder);
-  void take(Read folder);
 
   std::filesystem::path folder_, picked_;
   std::vector<std::string> endings_;
