@@ -3,7 +3,6 @@
 // which object is under the mouse, also after objects were moved.
 #include "scenes.h"
 #include "tests/support/loaded_scenes.h"
-#include "ui/view/camera.h"
 #include "ui/view/placement.h"
 #include "ui/view/sight.h"
 

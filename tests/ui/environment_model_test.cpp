@@ -7,7 +7,6 @@
 #include "preset/read.h"
 #include "tests/environment/maps.h"
 #include "ui/environment/model.h"
-#include "ui/environment/picture.h"
 
 namespace nephroid::ui::environment_model_test {
 

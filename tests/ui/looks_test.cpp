@@ -3,7 +3,7 @@
 #include "image/image.h"
 #include "layered_runs.h"
 #include "ui/state/tone.h"
-#include "ui/view/camera.h"
+#include "ui/view/sight.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::looks_test {

@@ -4,7 +4,7 @@
 #include "preset/field.h"
 #include "tests/support/test.h"
 #include "ui/spectral/dispersion/model.h"
-#include "ui/spectral/spectra/light_edits.h"
+#include "ui/spectral/spectra/curves.h"
 #include "ui/widgets/rows.h"
 
 namespace nephroid::ui::rows_test {

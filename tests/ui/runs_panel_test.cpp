@@ -19,7 +19,7 @@ protected:
     ASSERT_TRUE(until_current());
     finish();
   }
-  std::string difference(const RunRow& row) { return PresetDifferences().in_short(row, context()); }
+  std::string difference(const RunRow& row) { return PresetDifferences().of(row, context()).in_short; }
   std::vector<PinnedRun> pins() const { return workbench.comparing().pinned().all(); }
   /// Until the report is written or refused: the newest message.
   std::string report(const std::string& file)

@@ -7,7 +7,6 @@
 #include "spectral/clusters/clusters.h"
 #include "spectral/effort/importance.h"
 #include "ui/spectral/spectra/curves.h"
-#include "ui/spectral/spectra/light_edits.h"
 
 namespace nephroid::ui::spectra_edits_test {
 

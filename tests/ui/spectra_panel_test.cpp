@@ -4,7 +4,6 @@
 #include "scene/materials.h"
 #include "scenes.h"
 #include "spectral/tables/run_tables.h"
-#include "ui/spectral/spectra/light_edits.h"
 #include "ui/spectral/spectra/panel.h"
 #include "window_fixture.h"
 

@@ -223,7 +223,7 @@ TEST_F(SweepTest, EachRunBecomesAPin)
   EXPECT_EQ(pins()[3].history->rows.size(), 20u);
   frames(2);
   ASSERT_THAT(panel().rows(), SizeIs(5));
-  EXPECT_EQ(PresetDifferences().in_short(panel().rows()[4], context()), "seed: 1 -> 2, 1 more");
+  EXPECT_EQ(PresetDifferences().of(panel().rows()[4], context()).in_short, "seed: 1 -> 2, 1 more");
   // The preset in hand runs again, and it is as it was.
   ASSERT_TRUE(until_current());
   finish();

@@ -25,16 +25,6 @@ void expose(C c)
   look(c, [](Look& l) { l.exposure_stops += half_stops / 2.0; });
 }
 
-void as_it_is(C c)
-{
-  look(c, [](Look& l) { l.exposure_stops = 0; });
-}
-
-void fit(C c)
-{
-  look(c, [](Look& l) { l.fit = true; });
-}
-
 void actual_size(C c)
 {
   const job::Picture& picture = *c.run.snapshot()->picture;
@@ -143,11 +133,11 @@ std::vector<Action> view_actions()
        flip_back},
       {"Difference", ImGuiKey_D, "The difference from it in false colour", can_difference, difference, why_not_comparable},
       {"Compare with the next", ImGuiKey_N, "The reference, then each pinned run", has_choice, compare_with_next, no_choice},
-      {"Fit", ImGuiKey_F, "The whole picture in the panel", has_picture, fit},
+      {"Fit", ImGuiKey_F, "The whole picture in the panel", has_picture, [](C c) { look(c, [](Look& l) { l.fit = true; }); }},
       {"Actual size", ImGuiKey_1, "One pixel of the picture is one of the screen", has_picture, actual_size},
       repeating({"Brighter", ImGuiKey_E, "Half a stop more exposure", always, expose<1>}),
       repeating({"Darker", shift | ImGuiKey_E, "Half a stop less exposure", always, expose<-1>}),
-      {"Exposure 0", ImGuiKey_0, "The picture as image.png shows it", always, as_it_is},
+      {"Exposure 0", ImGuiKey_0, "The picture as image.png shows it", always, [](C c) { look(c, [](Look& l) { l.exposure_stops = 0; }); }},
       {"Next layer", ImGuiKey_L, "All of the light, then each layer of the picture", has_layers, next_layer<1>, no_layers},
       {"Previous layer", shift | ImGuiKey_L, "The same the other way round", has_layers, next_layer<-1>, no_layers},
       {"Next tone curve", ImGuiKey_T, "As image.png, filmic, false colour", always, next_tone},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/environment/map_view.h"
+#include "ui/environment/panel.h"
 
 #include "ui/widgets/theme.h"
 

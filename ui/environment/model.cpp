@@ -39,14 +39,6 @@ std::shared_ptr<const CutMap> cut(const ReadMap& map, const SegmentSettings& set
   return cut_map;
 }
 
-std::shared_ptr<const PixelsOfMap> under(const MapPictureSize& size, const ReadMap& map)
-{
-  return std::make_shared<PixelsOfMap>(PixelsOfMap{colours_under(size, map.picture), texels_under(size, map.cube.size)});
-}
-
-/// The method that has fewer points so far.
-std::size_t method_in_turn(const std::array<Quality, 2>& quality) { return quality[1].size() < quality[0].size() ? 1 : 0; }
-
 Colour colour_of(const glm::dvec3& flux)
 {
   const double most = std::max({flux.x, flux.y, flux.z});
@@ -117,7 +109,11 @@ ShownMap EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMa
     } else if (step == Step::draw) {
       auto picture = std::make_shared<MapPicture>();
       picture->size = wanted.picture;
-      picture->under = shown.picture && shown.picture->size == wanted.picture ? shown.picture->under : under(wanted.picture, *shown.map);
+      if (shown.picture && shown.picture->size == wanted.picture)
+        picture->under = shown.picture->under;
+      else
+        picture->under = std::make_shared<PixelsOfMap>(
+            PixelsOfMap{colours_under(wanted.picture, shown.map->picture), texels_under(wanted.picture, shown.map->cube.size)});
       if (wanted.segments) picture->cut = shown.cut;
       picture->rgba = drawn(wanted.picture, picture->under->colours, picture->under->texels,
                             picture->cut ? picture->cut->region_of_texel : std::vector<int>());
@@ -127,7 +123,7 @@ ShownMap EnvironmentModel::take_step(Step step, const WantedMap& wanted, ShownMa
     } else if (step == Step::error) {
       shown.cut_error = error_of(shown.cut->segmentation);
     } else {
-      const std::size_t method = method_in_turn(shown.quality);
+      const std::size_t method = shown.quality[1].size() < shown.quality[0].size() ? 1 : 0; // the one with fewer points so far
       Quality& points = shown.quality.at(method);
       const SegmentSettings settings{.lights = quality_lights.at(points.size()), .method = static_cast<SegmentMethod>(method)};
       points.push_back(error_of(environment::segment(shown.map->cube, settings)));

@@ -2,13 +2,45 @@
 // What the panel "Environment" shows of a preset: its map, read once, as a cube and as a picture; the lights that it is cut into; how well
 // as many lights as one likes would do. Made beside the frames, what is seen first. And what a person reads of the lights. No Dear ImGui.
 #pragma once
+#include "environment/segment/picture.h"
 #include "environment/segment/segment.h"
 #include "job/job.h"
 #include "preset/preset.h"
-#include "ui/environment/picture.h"
 #include "ui/state/tasks.h"
 
 namespace nephroid::ui {
+
+/// The environment as a flat picture, in the map's own frame, not turned by rotate_deg.
+/// latitude_longitude: -z in the middle, +x to the right of it, +y at the top. cube: the same as a cross of 4 x 3 faces seen from inside;
+/// -x, -z, +x, +z from left to right, +y above and -y below -z.
+enum class MapLayout { latitude_longitude, cube };
+
+/// Width over height.
+inline double aspect(MapLayout layout) { return layout == MapLayout::cube ? 4.0 / 3 : 2.0; }
+
+struct MapPictureSize {
+  MapLayout layout = MapLayout::latitude_longitude;
+  int width = 0; ///< pixels
+  int height() const;
+  bool operator==(const MapPictureSize&) const = default;
+};
+
+/// at: 0..1 to the right and downwards. Nothing beside the cross.
+std::optional<environment::CubePoint> cube_point(MapLayout layout, const glm::dvec2& at);
+/// Where a direction of any length but 0 lies in the picture, 0..1 to the right and downwards.
+glm::dvec2 place_of(MapLayout layout, const glm::dvec3& direction);
+
+using Colour = std::array<unsigned char, 3>;
+
+/// Of each pixel, row 0 at the top; black beside the cross. map: in latitude and longitude, as environment::shown_map makes it.
+std::vector<Colour> colours_under(const MapPictureSize& size, const environment::SegmentPicture& map);
+/// The texel of the cube under each pixel's middle; -1 beside the cross. cube_size: as CubeMap::size.
+std::vector<int> texels_under(const MapPictureSize& size, int cube_size);
+/// Of each texel of the cube the index of its region: first the lights, then those that were dropped.
+std::vector<int> regions_of_texels(const environment::Segmentation& segmentation);
+/// 4 bytes a pixel; transparent beside the cross. Of the first two, and with lines between the regions of the third; empty: without.
+std::vector<unsigned char> drawn(const MapPictureSize& size, const std::vector<Colour>& colours, const std::vector<int>& texels,
+                                 const std::vector<int>& regions);
 
 /// How many lights the plot of quality has points of.
 inline constexpr std::array quality_lights{6, 8, 12, 16, 24, 32, 48, 64, 128, 256};

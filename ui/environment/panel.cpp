@@ -109,7 +109,7 @@ void EnvironmentPanel::draw(const Context& context)
   places_.clear();
   const preset::Preset& preset = *context.preset();
   if (!preset.scene.environment) {
-    draw_hint(ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
+    draw_hint(colour::quiet_text, ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
               "The preset has no environment: drop a latitude-longitude picture (.hdr, .exr) on the window, or add "
               "scene.environment in Parameters");
     return;
@@ -262,7 +262,7 @@ void EnvironmentPanel::draw_map(const Context& context)
   const MapDrag drag = map_.draw(contents(), std::max(10 * em(), 0.42f * ImGui::GetWindowHeight()));
   if (!shown_.map && shown_.error.empty()) {
     const auto& [x, y, width, height] = map_.area();
-    draw_hint_on_dark(vec({x, y}), vec({width, height}), "Reading the map");
+    draw_hint(colour::quiet_on_dark, vec({x, y}), vec({width, height}), "Reading the map");
   }
   if (const auto region = map_.hovered(); region && *region < figures_.size())
     ImGui::SetTooltip("%s", text_of(figures_[*region], *region, by_flux_.size()).c_str());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/environment/picture.h"
+#include "ui/environment/model.h"
 
 #include <algorithm>
 #include <cmath>

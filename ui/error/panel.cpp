@@ -97,9 +97,16 @@ void ErrorPanel::draw(const Context& context)
   plot_.draw(contents_, std::max(height - pins - ImGui::GetStyle().ItemSpacing.y, 8 * em));
   if (contents_.runs.empty()) {
     const auto& [x, y, width, plot_height] = plot_.area();
-    draw_hint_on_dark(vec({x, y}), vec({width, plot_height}), empty_hint(context));
+    draw_hint(colour::quiet_on_dark, vec({x, y}), vec({width, plot_height}), empty_hint(context));
   }
-  if (pins > 0) draw_pins(context);
+  if (pins == 0) return;
+  if (ImGui::BeginChild("pins"))
+    for (const PinnedRun& pin : context.comparing.pinned().all()) {
+      ImGui::PushID(static_cast<int>(pin.id));
+      draw_pin(context, pin);
+      ImGui::PopID();
+    }
+  ImGui::EndChild();
 }
 
 void ErrorPanel::draw_toolbar(const Context& context)
@@ -128,18 +135,6 @@ void ErrorPanel::draw_toolbar(const Context& context)
   if (ImGui::Button("All")) plot_.follow();
   ImGui::EndDisabled();
   tooltip("Axes that show everything and grow with the run; a double click on the plot does the same. Wheel zooms, drag moves.");
-}
-
-void ErrorPanel::draw_pins(const Context& context)
-{
-  if (ImGui::BeginChild("pins")) {
-    for (const PinnedRun& pin : context.comparing.pinned().all()) {
-      ImGui::PushID(static_cast<int>(pin.id));
-      draw_pin(context, pin);
-      ImGui::PopID();
-    }
-  }
-  ImGui::EndChild();
 }
 
 void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin)

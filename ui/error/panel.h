@@ -2,10 +2,41 @@
 // The panel "Error": the history of the run in hand and of pinned runs, their slopes, and how much faster one is than
 // another at equal error.
 #pragma once
-#include "ui/error/plot.h"
+#include "ui/error/lines.h"
 #include "ui/widgets/panel.h"
+#include "ui/widgets/plots.h"
 
 namespace nephroid::ui {
+
+struct PlottedRun {
+  std::string name;
+  std::uint32_t colour = 0;        ///< IM_COL32
+  float weight = 1.5f;             ///< of its line, in pixels at scale 1
+  const RunLines* lines = nullptr; ///< outlives the call
+};
+
+struct PlotContents {
+  std::string metric;
+  std::vector<PlottedRun> runs; ///< the one in front last
+  std::optional<double> target;
+};
+
+/// Error against time on two log axes: lines of several runs, noise floor, target, and the values under the cursor.
+class ErrorPlot {
+public:
+  /// In the window's free width; height in pixels.
+  void draw(const PlotContents& contents, float height);
+  /// The axes show everything and grow with the run: from the start, until somebody zooms or moves them.
+  bool follows() const { return follows_; }
+  void follow() { follows_ = true; }
+  /// Where the plot's area was drawn last, and the ends of its axes; for tests.
+  const std::array<double, 4>& area() const { return area_.screen; } ///< x, y, width, height
+  PlotRange shown() const { return {area_.x, area_.y}; }
+
+private:
+  bool follows_ = true;
+  PlotArea area_;
+};
 
 /// The metric that the plot shows: the chosen one where any run has it, else the run's own, else the first there is; else empty.
 std::string shown_metric(const Context& context);
@@ -33,7 +64,6 @@ private:
   /// id: of a pinned run, 0 for the run in hand.
   const RunLines& lines(std::uint64_t id, const std::shared_ptr<const job::History>& history);
   void draw_toolbar(const Context& context);
-  void draw_pins(const Context& context);
   void draw_pin(const Context& context, const PinnedRun& pin);
   std::string findings(const Context& context, const PinnedRun& pin);
 

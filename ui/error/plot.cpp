@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/error/plot.h"
+#include "ui/error/panel.h"
 
 #include "measure/run_curves.h"
 #include "ui/widgets/theme.h"

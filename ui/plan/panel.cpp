@@ -76,21 +76,6 @@ void draw_buffers(const plan::Plan& plan)
   ImGui::EndTable();
 }
 
-void draw_defines(const plan::Plan& plan)
-{
-  if (plan.defines.empty()) return;
-  heading("Kernels are built with");
-  for (const auto& [name, value] : plan.defines)
-    draw_wrapped(colour::quiet_text, fmt::format("-D {}{}{}", name, value.empty() ? "" : "=", value));
-}
-
-void draw_notes(const plan::Plan& plan)
-{
-  if (plan.notes.empty()) return;
-  heading("Notes");
-  for (const std::string& note : plan.notes) draw_wrapped(colour::note, note);
-}
-
 } // namespace
 
 preset::Preset with_field(const preset::Preset& preset, const std::string& pointer, bool value)
@@ -104,8 +89,7 @@ void PlanPanel::draw(const Context& context)
 {
   const plan::Plan* plan = context.run.plan().get();
   if (!plan) {
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    draw_hint(corner, ImGui::GetContentRegionAvail(), "The plan is being made");
+    draw_hint(colour::quiet_text, ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(), "The plan is being made");
     return;
   }
   read_fields(context);
@@ -118,8 +102,11 @@ void PlanPanel::draw(const Context& context)
   if (ImGui::BeginChild("plan")) {
     draw_passes(context);
     draw_buffers(*plan);
-    draw_defines(*plan);
-    draw_notes(*plan);
+    if (!plan->defines.empty()) heading("Kernels are built with");
+    for (const auto& [name, value] : plan->defines)
+      draw_wrapped(colour::quiet_text, fmt::format("-D {}{}{}", name, value.empty() ? "" : "=", value));
+    if (!plan->notes.empty()) heading("Notes");
+    for (const std::string& note : plan->notes) draw_wrapped(colour::note, note);
   }
   ImGui::EndChild();
 }

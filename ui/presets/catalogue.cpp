@@ -134,19 +134,6 @@ void Catalogue::follow(const RecentFiles& recent, TaskQueue& tasks)
       });
 }
 
-void Thumbnails::take(const std::vector<Pixels>& pictures)
-{
-  for (const Pixels& pixels : pictures) {
-    std::unique_ptr<PictureTexture>& picture = pictures_[pixels.file];
-    if (pixels.width == 0) {
-      picture.reset();
-      continue;
-    }
-    if (!picture) picture = std::make_unique<PictureTexture>();
-    std::copy(pixels.rgba8.begin(), pixels.rgba8.end(), picture->edit(pixels.width, pixels.height).begin());
-  }
-}
-
 void Thumbnails::update(TaskQueue& tasks)
 {
   if (tasks.busy(reading_)) return;
@@ -158,7 +145,17 @@ void Thumbnails::update(TaskQueue& tasks)
     for (const std::string& file : files) pictures.push_back(read(file));
     return pictures;
   };
-  tasks.start(reading_, {"reading small pictures"}, read_all, [this](const std::vector<Pixels>& pictures) { take(pictures); });
+  tasks.start(reading_, {"reading small pictures"}, read_all, [this](const std::vector<Pixels>& pictures) {
+    for (const Pixels& pixels : pictures) {
+      std::unique_ptr<PictureTexture>& picture = pictures_[pixels.file];
+      if (pixels.width == 0) {
+        picture.reset();
+        continue;
+      }
+      if (!picture) picture = std::make_unique<PictureTexture>();
+      std::copy(pixels.rgba8.begin(), pixels.rgba8.end(), picture->edit(pixels.width, pixels.height).begin());
+    }
+  });
 }
 
 const PictureTexture* Thumbnails::of(const std::filesystem::path& file)

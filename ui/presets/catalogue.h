@@ -83,7 +83,6 @@ private:
     std::vector<unsigned char> rgba8;
   };
   static Pixels read(const std::string& file);
-  void take(const std::vector<Pixels>& pictures);
 
   bool stale_ = false;
   std::map<std::string, std::unique_ptr<PictureTexture>> pictures_; ///< null: there is none

@@ -228,17 +228,16 @@ void RunsPanel::draw_buttons(const Context& context, const RunRow& row)
 /// The third line of the row, across all columns, from its upper left corner on. Under the mouse: all of it.
 void RunsPanel::draw_difference(const Context& context, const RunRow& row, const ImVec2& corner, float width)
 {
-  const std::string& text = differences_.in_short(row, context);
+  const auto& known = differences_.of(row, context);
   const ImVec2 low = corner, high{low.x + width, low.y + ImGui::GetTextLineHeight()};
   ImDrawList* list = ImGui::GetWindowDrawList();
   const ImVec2 seen_low = ImGui::GetWindowPos(), seen = ImGui::GetWindowSize();
   list->PushClipRect({std::max(low.x, seen_low.x), std::max(low.y, seen_low.y + ImGui::GetFrameHeight())},
                      {std::min(high.x, seen_low.x + seen.x), std::min(high.y, seen_low.y + seen.y)});
-  list->AddText(low, colour::quiet_text, text.c_str());
+  list->AddText(low, colour::quiet_text, known.in_short.c_str());
   list->PopClipRect();
-  if (const std::string& all = differences_.in_full(row, context);
-      !all.empty() && ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high, false))
-    ImGui::SetTooltip("%s", all.c_str());
+  if (!known.in_full.empty() && ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high, false))
+    ImGui::SetTooltip("%s", known.in_full.c_str());
 }
 
 } // namespace nephroid::ui

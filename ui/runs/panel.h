@@ -34,17 +34,14 @@ std::vector<RunRow> run_rows(const Context& context);
 /// Where presets differ from the present one, kept as long as both stay the same.
 class PresetDifferences {
 public:
-  /// In words for a row: "spectral.threshold_deg: 0.1 -> 0.5, 2 more"; the present one's value comes first.
-  const std::string& in_short(const RunRow& row, const Context& context) { return of(row, context).in_short; }
-  /// A line a difference.
-  const std::string& in_full(const RunRow& row, const Context& context) { return of(row, context).in_full; }
-
-private:
   struct Known {
     std::shared_ptr<const preset::Preset> of, present;
-    std::string in_short, in_full;
+    std::string in_short; ///< for a row: "spectral.threshold_deg: 0.1 -> 0.5, 2 more"; the present one's value comes first
+    std::string in_full;  ///< a line a difference
   };
   const Known& of(const RunRow& row, const Context& context);
+
+private:
   std::map<std::uint64_t, Known> known_; ///< by RunRow::pin
 };
 
@@ -60,7 +57,7 @@ public:
   /// For tests: what was listed last, from the top; the middle of a widget on the screen: "show 3", "take 3", "unpin 3" of a pin by its id,
   /// "show 0" and "pin" of the run in hand. Nothing where it is not drawn.
   const std::vector<RunRow>& rows() const { return rows_; }
-  std::string difference(const RunRow& row, const Context& context) { return differences_.in_short(row, context); }
+  std::string difference(const RunRow& row, const Context& context) { return differences_.of(row, context).in_short; }
   const SweepSection& sweep() const { return sweep_; }
 
 private:

@@ -108,24 +108,9 @@ std::string heading(const Context& context)
 
 std::string state_text(const SweepQueue::Run& run)
 {
-  switch (run.state) {
-  case State::waiting:
-    return "waiting";
-  case State::running:
-    return fmt::format("{:.0f} %", 100 * run.part);
-  case State::done:
-    return "done";
-  case State::failed:
-    return "failed";
-  case State::stopped:
-    return "stopped";
-  }
-  return {};
-}
-
-bool has_letters(const std::string& key, const std::string& filter)
-{
-  return lower_case(key).find(lower_case(filter)) != std::string::npos;
+  if (run.state == State::running) return fmt::format("{:.0f} %", 100 * run.part);
+  constexpr const char* names[] = {"waiting", "running", "done", "failed", "stopped"}; // in the order of State
+  return names[static_cast<std::size_t>(run.state)];
 }
 
 } // namespace
@@ -261,7 +246,7 @@ void SweepSection::draw_choice(WidgetPlaces& places)
   const bool entered = input_text("##filter", "letters of its name", filter_, ImGuiInputTextFlags_EnterReturnsTrue);
   bool first = true;
   for (const NumberField& field : fields_) {
-    if (!has_letters(field.key, filter_)) continue;
+    if (lower_case(field.key).find(lower_case(filter_)) == std::string::npos) continue;
     if (ImGui::Selectable(field.key.c_str(), field.key == key_) || (entered && first)) {
       choose(field);
       ImGui::CloseCurrentPopup();

@@ -27,17 +27,24 @@ std::string size_text(std::uintmax_t bytes)
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }
 
-/// In the order of Question.
-constexpr const char* titles[] = {"",
-                                  "Open a preset",
-                                  "Open the history of a run",
-                                  "Save the preset as",
-                                  "Save the picture as",
-                                  "Unsaved changes",
-                                  "",
-                                  "Write a report over the runs"};
+struct DialogKind {
+  const char* title;
+  const char* proposal;             ///< what a proposed name ends in; empty: no name is proposed
+  std::vector<std::string> endings; ///< of the files that it is about
+};
 
-const char* title_of(Question question) { return titles[static_cast<std::size_t>(question)]; }
+const DialogKind& kind_of_dialog(Question question)
+{
+  static const DialogKind kinds[] = {{"", "", {}}, // in the order of Question
+                                     {"Open a preset", "", {".json"}},
+                                     {"Open the history of a run", "", {".csv"}},
+                                     {"Save the preset as", "-edited.json", {".json"}},
+                                     {"Save the picture as", ".png", {".png", ".exr"}},
+                                     {"Unsaved changes", "", {}},
+                                     {"", "", {}},
+                                     {"Write a report over the runs", "-report.html", {".html"}}};
+  return kinds[static_cast<std::size_t>(question)];
+}
 
 /// A field for a file's name, and a button. True where the name is chosen by one of them. replaces: Enter in the field only goes to the
 /// button, so that a file takes two of them. possible: whether the name will do.
@@ -52,12 +59,6 @@ bool choose_name(const char* hint, float width, std::string& name, const char* b
   const bool pressed = ImGui::Button(button);
   ImGui::EndDisabled();
   return pressed || (entered && possible && !replaces);
-}
-
-bool is_folder(const std::string& name)
-{
-  std::error_code ignored;
-  return std::filesystem::is_directory(name, ignored);
 }
 
 } // namespace
@@ -100,19 +101,16 @@ void FileList::go(fs::path folder)
   tasks_->forget(reading_); // a folder whose disk hangs keeps no other one waiting
   tasks_->start(
       reading_, {"reading " + folder_.string()}, [folder = folder_, endings = endings_] { return read(folder, endings); },
-      [this](Read of_folder) { take(std::move(of_folder)); });
-}
-
-void FileList::take(Read folder)
-{
-  entries_ = std::move(folder.entries);
-  note_.clear();
-  if (!folder.error.empty())
-    note_ = "This folder cannot be read: " + folder.error;
-  else if (folder.cut)
-    note_ = fmt::format("There are more than {} files here: type the name", most_entries);
-  else if (entries_.empty())
-    note_ = "Nothing of the kind that is wanted";
+      [this](Read of_folder) {
+        entries_ = std::move(of_folder.entries);
+        note_.clear();
+        if (!of_folder.error.empty())
+          note_ = "This folder cannot be read: " + of_folder.error;
+        else if (of_folder.cut)
+          note_ = fmt::format("There are more than {} files here: type the name", most_entries);
+        else if (entries_.empty())
+          note_ = "Nothing of the kind that is wanted";
+      });
 }
 
 FileList::Picked FileList::draw(float width, float height)
@@ -161,29 +159,17 @@ void Dialogs::begin(Workbench& workbench)
 {
   shown_ = workbench.question();
   name_.clear();
-  const bool picture = shown_ == Question::save_picture;
-  if (picture || shown_ == Question::save_preset) name_ = proposed_name(workbench.preset(), picture ? ".png" : "-edited.json");
-  if (shown_ == Question::save_report) name_ = proposed_name(workbench.preset(), "-report.html");
+  const DialogKind& kind = kind_of_dialog(shown_);
+  if (*kind.proposal) name_ = proposed_name(workbench.preset(), kind.proposal);
   parent_.clear();
   if (shown_ == Question::save_preset && workbench.preset()) {
     parent_ = parent_to_keep(*workbench.preset());
     keep_parent_ = !preset::own_parent(workbench.preset()->source).empty();
   }
   shipped_.clear();
-  ImGui::OpenPopup(title_of(shown_));
+  ImGui::OpenPopup(kind.title);
   if (shown_ == Question::open) shipped_ = preset::shipped_presets();
-  if (shown_ != Question::unsaved) begin_files(workbench);
-}
-
-/// From the folder of the preset in hand, of the kinds that the question is about.
-void Dialogs::begin_files(Workbench& workbench)
-{
-  std::vector<std::string> endings{".json"};
-  if (shown_ == Question::open_history) endings = {".csv"};
-  if (shown_ == Question::save_picture) endings = {".png", ".exr"};
-  if (shown_ == Question::save_report) endings = {".html"};
-  const std::filesystem::path source = save_target(workbench.preset());
-  files_.begin(source.parent_path(), endings, workbench.tasks());
+  if (shown_ != Question::unsaved) files_.begin(save_target(workbench.preset()).parent_path(), kind.endings, workbench.tasks());
 }
 
 void Dialogs::draw(Workbench& workbench, Commands& commands)
@@ -196,7 +182,7 @@ void Dialogs::draw(Workbench& workbench, Commands& commands)
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->GetWorkCenter(), ImGuiCond_Always, {0.5f, 0.5f});
   bool open = true;
-  if (!ImGui::BeginPopupModal(title_of(shown_), &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+  if (!ImGui::BeginPopupModal(kind_of_dialog(shown_).title, &open, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
     commands.push_back(command::Ask{Question::none}); // closed by its cross
     return;
   }
@@ -255,8 +241,9 @@ void Dialogs::draw_open_history(Commands& commands)
 
 void Dialogs::draw_save(Commands& commands)
 {
-  const bool picture = shown_ == Question::save_picture, report = shown_ == Question::save_report, folder = is_folder(name_),
-             there = !folder && is_there(name_);
+  std::error_code ignored;
+  const bool picture = shown_ == Question::save_picture, report = shown_ == Question::save_report;
+  const bool folder = fs::is_directory(name_, ignored), there = !folder && is_there(name_);
   // A file of the list is only named by a click: replacing it takes the button.
   const bool chosen = choose_name("file", ImGui::GetFontSize() * 41, name_, there ? "Replace" : "Save", !name_.empty() && !folder, there);
   places_.note("save");

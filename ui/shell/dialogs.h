@@ -44,7 +44,6 @@ private:
   };
   static Read read(const std::filesystem::path& folder, const std::vector<std::string>& endings);
   void go(std::filesystem::path folder);
-  void take(Read folder);
 
   std::filesystem::path folder_, picked_;
   std::vector<std::string> endings_;
@@ -63,7 +62,6 @@ public:
 
 private:
   void begin(Workbench& workbench);
-  void begin_files(Workbench& workbench);
   bool pick_file();
   void draw_open(Commands& commands);
   void draw_open_history(Commands& commands);

@@ -28,13 +28,7 @@ void row(const char* how, const char* what)
   ImGui::TextDisabled("%s", what);
 }
 
-/// The key of a chord without its modifiers.
-ImGuiKey key_of(int shortcut) { return static_cast<ImGuiKey>(shortcut & ~ImGuiMod_Mask_); }
-
 constexpr const char* palette_title = "Commands";
-
-/// Whether the whole name is typed: then no other is meant, whatever its letters score.
-bool is_name(const std::string& typed, const Palette::Entry& entry) { return lower_case(typed) == lower_case(entry.name); }
 
 bool is_enabled(const Palette::Entry& entry, const Context& context) { return !entry.action || entry.action->enabled(context); }
 
@@ -110,7 +104,8 @@ void run_shortcuts(const Context& context, bool dialog, bool help)
   for (const Action& action : actions()) {
     if (!action.shortcut) continue;
     // A window that loses the keyboard never hears that the key went up.
-    if (action.let_go && (ImGui::IsKeyReleased(key_of(action.shortcut)) || io.AppFocusLost)) action.let_go(context);
+    const auto key = static_cast<ImGuiKey>(action.shortcut & ~ImGuiMod_Mask_);
+    if (action.let_go && (ImGui::IsKeyReleased(key) || io.AppFocusLost)) action.let_go(context);
     // Not ImGui::Shortcut: the routes it goes by are those of the frame before, so that a key in the first frame would be lost.
     const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
     // Where somebody goes from widget to widget by the keyboard, Space is for the widget that is marked.
@@ -159,8 +154,9 @@ void Palette::search()
   std::vector<std::pair<int, const Entry*>> scored;
   for (const Entry& entry : entries_) {
     int score = 0;
+    // Where the whole name is typed no other is meant, whatever its letters score.
     if (typed_.empty() || ImCmd::FuzzySearch(typed_.c_str(), entry.name.c_str(), score))
-      scored.emplace_back(is_name(typed_, entry) ? std::numeric_limits<int>::max() : score, &entry);
+      scored.emplace_back(lower_case(typed_) == lower_case(entry.name) ? std::numeric_limits<int>::max() : score, &entry);
   }
   std::stable_sort(scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   matches_.clear();

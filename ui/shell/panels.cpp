@@ -38,20 +38,13 @@ std::vector<PanelEntry> make_table()
 
 std::span<const PanelEntry> tabs() { return panel_table().subspan(1); }
 
-/// The panel of a name; null where there is none.
-const PanelEntry* find_panel(const std::string& name)
-{
-  const auto found = std::find_if(panel_table().begin(), panel_table().end(), [&](const PanelEntry& entry) { return entry.name == name; });
-  return found == panel_table().end() ? nullptr : &*found;
-}
-
 /// The tab in front; null where there is no such layout.
 const PanelEntry* front_tab(const std::string& name, const std::string& engine)
 {
-  if (!name.empty()) return name == panel_table().front().name ? nullptr : find_panel(name);
-  const auto own =
-      std::find_if(tabs().begin(), tabs().end(), [&](const PanelEntry& tab) { return !engine.empty() && tab.front_for == engine; });
-  return own == tabs().end() ? &tabs().front() : &*own;
+  const auto found =
+      name.empty() ? std::ranges::find(tabs(), engine, &PanelEntry::front_for) : std::ranges::find(tabs(), name, &PanelEntry::name);
+  if (found != tabs().end() && (!name.empty() || !engine.empty())) return &*found;
+  return name.empty() ? &tabs().front() : nullptr;
 }
 
 /// A tab's identifier is that of its window's name in its window (ImGuiWindow::TabId).

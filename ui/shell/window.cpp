@@ -42,14 +42,6 @@ bool is_over(job::State state)
   return state == job::State::finished || state == job::State::cancelled || state == job::State::failed || state == job::State::idle;
 }
 
-/// A scene becomes a preset in the background; overrides cannot wait for it.
-Command open_scene(const std::string& file, const Options& options)
-{
-  if (options.overrides.empty()) return command::Open{file};
-  const std::string error = bad_input(file, "--set cannot change a scene", "a preset", "import it first: nephroid import").line();
-  return command::Report{error};
-}
-
 /// Pins the histories and opens the first preset that can be opened. Behind it only runs are expected: what is none leaves its message.
 void open_first(Workbench& workbench, const Options& options)
 {
@@ -57,8 +49,11 @@ void open_first(Workbench& workbench, const Options& options)
   for (const std::string& file : options.files)
     if (opened || is_history(file))
       workbench.apply({command::PinFile{file}});
+    else if (kind_of(file) == FileKind::scene && !options.overrides.empty()) // it becomes a preset in the background: they cannot wait
+      workbench.apply(
+          {command::Report{bad_input(file, "--set cannot change a scene", "a preset", "import it first: nephroid import").line()}});
     else if (kind_of(file) == FileKind::scene)
-      workbench.apply({open_scene(file, options)});
+      workbench.apply({command::Open{file}});
     else
       opened = workbench.open(file, options.overrides);
 }

@@ -81,8 +81,7 @@ void Comparing::carry_out(const command::ShowDifference& c)
 
 void Comparing::carry_out(const command::PinRun&)
 {
-  if (!run_.snapshot()) return;
-  pin(run_now(run_));
+  if (run_.snapshot()) pin(run_now(run_));
 }
 
 void Comparing::carry_out(const command::Unpin& c)

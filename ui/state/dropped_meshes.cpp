@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/state/dropped_meshes.h"
+#include "ui/state/files.h"
 
 #include "base/error.h"
 #include "preset/read.h"

@@ -7,15 +7,8 @@
 #include <map>
 
 namespace nephroid::ui {
-namespace {
-
-constexpr std::chrono::milliseconds look_every{300};
-
-} // namespace
 
 FileWatch::FileWatch() : thread_([this](const std::stop_token& stop) { look(stop); }) {}
-
-FileWatch::~FileWatch() = default;
 
 void FileWatch::watch(std::shared_ptr<const preset::Preset> preset, bool just_read)
 {
@@ -45,6 +38,7 @@ FileWatch::Stamp FileWatch::stamp_of(const std::filesystem::path& file)
 
 void FileWatch::look(const std::stop_token& stop)
 {
+  constexpr std::chrono::milliseconds look_every{300};
   std::map<std::filesystem::path, Seen> seen;
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {

@@ -18,7 +18,6 @@ namespace nephroid::ui {
 class FileWatch {
 public:
   FileWatch();
-  ~FileWatch();
   /// The files of this preset from now on; null: none. just_read: what was written until now is known, as they were all
   /// read; what is written from now on is not, however late the thread looks.
   void watch(std::shared_ptr<const preset::Preset> preset, bool just_read);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which files a person may open, drop and save, and how they are written.
+// Which files a person may open, drop and save, how they are written, and what a dropped mesh becomes.
 #pragma once
 #include "job/job.h"
 #include "preset/preset.h"
+#include "scene/scene.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
 #include "ui/state/tasks.h"
@@ -54,5 +55,24 @@ struct PictureToSave {
 std::string save_picture(const std::filesystem::path& file, const job::Picture& picture, const PictureToSave& shown);
 /// The files of a run into a new folder, the free_name() of this one, which is returned.
 std::filesystem::path save_files(const std::filesystem::path& folder, const job::Snapshot& of, TaskControl& control);
+
+/// A mesh file that is dropped on the window.
+struct DroppedMesh {
+  std::filesystem::path file; ///< absolute
+  scene::Bounds box;          ///< in the file's coordinates
+  bool closed = true;         ///< every edge is shared by exactly two triangles
+};
+
+/// Throws bad_input naming the file where there is no mesh in it that could be rendered.
+DroppedMesh read_dropped_mesh(const std::filesystem::path& file);
+
+/// The preset with the mesh as its last object, and what was done, a sentence. The material is the first dielectric, else the first of all,
+/// else new glass. The longest edge of the mesh's box becomes 0.4 of what the camera sees at its target, where the box' middle goes. Throws
+/// bad_input where the preset refuses dielectrics that are not closed and this would be one.
+struct WithMesh {
+  preset::Preset preset;
+  std::string note;
+};
+WithMesh with_mesh(preset::Preset preset, const DroppedMesh& mesh);
 
 } // namespace nephroid::ui

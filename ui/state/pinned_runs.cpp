@@ -42,8 +42,6 @@ const PinnedRun* PinnedRuns::find(std::uint64_t id) const
   return found == runs_.end() ? nullptr : &*found;
 }
 
-PinnedRun* PinnedRuns::find_mutable(std::uint64_t id) { return const_cast<PinnedRun*>(std::as_const(*this).find(id)); }
-
 std::string PinnedRuns::own_name(const std::string& wanted, std::uint64_t id) const
 {
   const auto taken = [&](const std::string& name) {
@@ -69,8 +67,8 @@ const PinnedRun& PinnedRuns::add(PinnedRun run)
 
 void PinnedRuns::change(std::uint64_t id, std::string name, std::uint32_t colour, bool shown)
 {
-  PinnedRun* run = find_mutable(id);
-  if (!run) return;
+  const auto run = std::ranges::find(runs_, id, &PinnedRun::id);
+  if (run == runs_.end()) return;
   if (!name.empty() && name != run->name) run->name = own_name(name, id);
   run->colour = colour;
   run->shown = shown;

@@ -36,7 +36,6 @@ public:
   void remove(std::uint64_t id);
 
 private:
-  PinnedRun* find_mutable(std::uint64_t id);
   /// The wanted name, with a number where another run than this has it.
   std::string own_name(const std::string& wanted, std::uint64_t id) const;
   std::uint32_t free_colour() const;

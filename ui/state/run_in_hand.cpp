@@ -7,11 +7,6 @@
 #include <mutex>
 
 namespace nephroid::ui {
-namespace {
-
-constexpr std::chrono::seconds patience_with_parts{1};
-
-} // namespace
 
 /// Filled on the worker's thread when a run was made ready.
 struct RunInHand::Arrival {
@@ -120,7 +115,7 @@ bool RunInHand::is_worth_showing(const job::Snapshot& newest)
   if (newest.whole || !snapshot_ || !snapshot_->whole || status_.state != job::State::running) return true;
   const auto now = std::chrono::steady_clock::now();
   if (!parts_since_) parts_since_ = now;
-  return now - *parts_since_ > patience_with_parts;
+  return now - *parts_since_ > std::chrono::seconds(1);
 }
 
 /// True where there is a new one.

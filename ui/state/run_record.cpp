@@ -50,6 +50,37 @@ std::string renamed(const std::string& text, const std::string& name)
   return json_text(json, 2) + "\n";
 }
 
+std::string folder_name(std::size_t number, const std::string& name)
+{
+  constexpr std::size_t longest = 40;
+  std::string plain = name.substr(0, longest);
+  for (char& c : plain)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._-+=,").find(c) == std::string_view::npos) c = '-';
+  return fmt::format("{:02}-{}", number, plain);
+}
+
+/// Whether the folder still holds the run that was read from it.
+bool is_still_there(const RunRecord& record)
+{
+  if (record.folder.empty()) return false;
+  try {
+    return std::ranges::all_of(record.texts, [&](const auto& file) { return read_file(record.folder / file.first) == file.second; });
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Removes what was written unless it is kept.
+struct Written {
+  fs::path folder; ///< claimed; empty while nothing was written
+  bool keep = false;
+  ~Written()
+  {
+    std::error_code ignored;
+    if (!keep && !folder.empty()) fs::remove_all(folder, ignored);
+  }
+};
+
 } // namespace
 
 PinnedRun look_at_run(const RunInHand& run)
@@ -158,41 +189,6 @@ void write_run_folder(const fs::path& folder, const PinnedRun& run, const std::s
     write_file_whole(folder / file, renamed(moved ? preset::to_json(*run.record->preset, folder) + "\n" : text, name));
   }
 }
-
-namespace {
-
-std::string folder_name(std::size_t number, const std::string& name)
-{
-  constexpr std::size_t longest = 40;
-  std::string plain = name.substr(0, longest);
-  for (char& c : plain)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && std::string_view("._-+=,").find(c) == std::string_view::npos) c = '-';
-  return fmt::format("{:02}-{}", number, plain);
-}
-
-/// Whether the folder still holds the run that was read from it.
-bool is_still_there(const RunRecord& record)
-{
-  if (record.folder.empty()) return false;
-  try {
-    return std::ranges::all_of(record.texts, [&](const auto& file) { return read_file(record.folder / file.first) == file.second; });
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-/// Removes what was written unless it is kept.
-struct Written {
-  fs::path folder; ///< claimed; empty while nothing was written
-  bool keep = false;
-  ~Written()
-  {
-    std::error_code ignored;
-    if (!keep && !folder.empty()) fs::remove_all(folder, ignored);
-  }
-};
-
-} // namespace
 
 std::string write_report(const fs::path& file, std::span<const PinnedRun> runs)
 {

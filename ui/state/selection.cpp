@@ -61,17 +61,9 @@ std::string unit_word(const preset::Preset& preset) { return std::string(preset:
 
 std::string pointer_of(const Selection& selection)
 {
-  switch (selection.kind) {
-  case Kind::object:
-    return fmt::format("/scene/objects/{}", selection.index);
-  case Kind::light:
-    return fmt::format("/scene/lights/{}", selection.index);
-  case Kind::camera:
-    return "/scene/camera";
-  case Kind::nothing:
-    break;
-  }
-  return {};
+  if (selection.kind == Kind::object) return fmt::format("/scene/objects/{}", selection.index);
+  if (selection.kind == Kind::light) return fmt::format("/scene/lights/{}", selection.index);
+  return selection.kind == Kind::camera ? "/scene/camera" : "";
 }
 
 double rounded(double value, int decimals)

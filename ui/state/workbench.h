@@ -5,7 +5,6 @@
 #pragma once
 #include "preset/read.h"
 #include "ui/state/context.h"
-#include "ui/state/dropped_meshes.h"
 #include "ui/state/file_watch.h"
 #include "ui/state/files.h"
 #include "ui/state/session.h"

@@ -2,7 +2,6 @@
 #include "ui/view/panel.h"
 
 #include "ui/view/bars.h"
-#include "ui/view/camera.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"
@@ -72,7 +71,7 @@ void ViewPanel::draw(const Context& context)
   draw_picture(context);
   overlay_.draw(context, canvas_, shown_.size, hovered_);
   use_mouse(context); // after the handles, which have it first
-  if (!shown_.hint.empty()) draw_hint_on_dark(corner, vec(canvas_.size), shown_.hint);
+  if (!shown_.hint.empty()) draw_hint(colour::quiet_on_dark, corner, vec(canvas_.size), shown_.hint);
   draw_marks(context.chosen, place(context.chosen.look, canvas_, shown_.size), shown_.size);
   if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
   if (map && map == shown_.owner) draw_difference_scale(*map, canvas_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/view/shown_picture.h"
+#include "ui/view/panel.h"
 
 #include "measure/lab.h"
 #include "ui/view/bars.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a preset's camera sees, on the screen: from points of the scene to points of the screen and back as rays, however the picture is
-// placed in its panel; and which object is there: a ray through the loaded scene, with objects where the preset has them now. In the
-// preset's coordinates and in double precision.
+// placed in its panel; which object is there: a ray through the loaded scene, with objects where the preset has them now; and how the mouse
+// moves the camera. In the preset's coordinates and in double precision. No Dear ImGui.
 #pragma once
 #include "preset/preset.h"
 #include "run/run.h"
@@ -56,5 +56,21 @@ std::optional<scene::Bounds> local_box(const SeenScene* seen, const preset::Pres
 /// What an object turns about and is scaled from, before its transform: a shape's own middle, or the middle of the box about a mesh, whose
 /// origin may lie anywhere.
 glm::dvec3 pivot_of(const SeenScene* seen, const preset::Preset& preset, std::size_t object);
+
+/// Moves the camera round its target: right_deg about the camera's up (positive: the camera goes to its right), then up_deg
+/// towards up. It stops 1 degree short of looking along up, where left and right would swap.
+preset::Camera orbit(const preset::Camera& camera, double right_deg, double up_deg);
+
+/// Multiplies the distance to the target; the target stays. factor > 0.
+preset::Camera dolly(const preset::Camera& camera, double factor);
+
+/// Shifts position and target together, in parts of the picture's height at the target's distance: a thing at the target moves
+/// by (right, down) in the picture.
+preset::Camera pan(const preset::Camera& camera, double right, double down);
+
+/// {"camera": {...}}, as it stands in a preset's scene.
+std::string camera_json(const preset::Preset& preset);
+/// "--set 'scene.camera.position=[0,0,4]' --set ...", a field each, quoted for a shell.
+std::string camera_settings(const preset::Preset& preset);
 
 } // namespace nephroid::ui

@@ -4,6 +4,8 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <utility>
+
 namespace nephroid::ui {
 namespace {
 
@@ -33,8 +35,8 @@ std::span<unsigned char> PictureTexture::edit(int width, int height)
 {
   free_retired();
   if (texture_ && (texture_->Width != width || texture_->Height != height)) {
-    retire(texture_);
-    texture_ = nullptr;
+    texture_->WantDestroyNextFrame = true; // the frame in hand may still draw with it; the back end destroys it in a later one
+    retired_.push_back(std::exchange(texture_, nullptr));
   }
   if (!texture_) {
     texture_ = IM_NEW(ImTextureData)();
@@ -63,13 +65,6 @@ void PictureTexture::draw(const ImVec2& low, const ImVec2& high, bool squares) c
   if (squares) list.AddCallback(platform.DrawCallback_SetSamplerNearest, nullptr);
   list.AddImage(ref(), low, high);
   if (squares) list.AddCallback(platform.DrawCallback_SetSamplerLinear, nullptr);
-}
-
-// The frame in hand may still draw with it; the back end destroys it in a later one.
-void PictureTexture::retire(ImTextureData* texture)
-{
-  texture->WantDestroyNextFrame = true;
-  retired_.push_back(texture);
 }
 
 void PictureTexture::free_retired()

@@ -28,7 +28,6 @@ public:
   void draw(const ImVec2& low, const ImVec2& high, bool squares) const;
 
 private:
-  void retire(ImTextureData* texture);
   void free_retired();
 
   ImTextureData* texture_ = nullptr;

@@ -109,6 +109,4 @@ void WavelengthAxis::show_all(double low_nm, double high_nm)
   high_nm_ = std::min(highest_nm, std::max<double>(optics::last_nm, high_nm) + margin_nm);
 }
 
-void WavelengthAxis::show_all() { show_all(optics::first_nm, optics::last_nm); }
-
 } // namespace nephroid::ui

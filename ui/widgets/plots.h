@@ -66,8 +66,7 @@ public:
   /// compact: without label and tick labels, for a plot above one that has them.
   void set_up(bool compact = false);
   /// The whole range again, with a margin: the 401 wavelengths, and what lies from low_nm to high_nm beyond them.
-  void show_all(double low_nm, double high_nm);
-  void show_all();
+  void show_all(double low_nm = 380, double high_nm = 780);
   /// The ends that are shown.
   double low_nm() const { return low_nm_; }
   double high_nm() const { return high_nm_; }

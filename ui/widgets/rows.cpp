@@ -29,7 +29,7 @@ bool before(const Row& a, const Row& b) { return a[0] < b[0]; }
 std::string refusal(const std::vector<Row>& rows, const Row& row, const RowRules& rules)
 {
   if (rows.size() >= preset::max_rows) return fmt::format("a preset has at most {} rows", preset::max_rows);
-  if (!std::isfinite(row[0]) || !std::isfinite(row[1])) return "its place is not finite";
+  if (!is_finite(row)) return "its place is not finite";
   const double nm = std::clamp(row[0], preset::wavelength_bounds.low, preset::wavelength_bounds.high);
   return fmt::format("another is less than {} nm from {:.6g} nm", rules.least_gap_nm, nm);
 }
@@ -45,12 +45,6 @@ void draw_point(const Row& at, float radius, std::uint32_t colour)
   list.AddCircleFilled(middle, radius + 2 * scale(), colour::outline);
   list.AddCircleFilled(middle, radius, colour);
   ImPlot::PopPlotClipRect();
-}
-
-bool mouse_moves()
-{
-  const ImVec2 step = ImGui::GetIO().MouseDelta;
-  return step.x != 0 || step.y != 0;
 }
 
 } // namespace
@@ -162,6 +156,7 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
   const Row under_mouse{mouse.x, mouse.y * look.unit};
   const ImPlotRange nm = ImPlot::GetPlotLimits().X;
   const bool few = std::count_if(rows.begin(), rows.end(), [&](const Row& row) { return nm.Contains(row[0]); }) <= most_in_sight;
+  const ImVec2 step = ImGui::GetIO().MouseDelta;
   waits_ = waits_ && ImGui::IsMouseDown(ImGuiMouseButton_Left);
   if (held_ && rows.size() != rows_at_take_) { // removed, or its addition undone: the row of that index is another one now
     gesture = {Kind::let_go, *held_, {}};
@@ -182,7 +177,7 @@ RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<st
       held_ = i;
       rows_at_take_ = rows.size();
       gesture = {Kind::take, i, {}};
-    } else if (held && held_ == i && moved && mouse_moves()) // where the mouse rests, what was undone meanwhile stays undone
+    } else if (held && held_ == i && moved && (step.x != 0 || step.y != 0)) // where the mouse rests, what was undone meanwhile stays undone
       gesture = {Kind::move, i, under_mouse};
     if (hovered && !held_ && !waits_ && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) gesture = {Kind::remove, i, {}};
     if (hovered || held) ImGui::SetTooltip("%s", look.text(rows[i]).c_str());

@@ -2,7 +2,6 @@
 #include "ui/widgets/widgets.h"
 
 #include "base/lower_case.h"
-#include "ui/widgets/theme.h"
 
 #include <imgui.h>
 
@@ -20,14 +19,6 @@ int resize(ImGuiInputTextCallbackData* data)
   text->resize(static_cast<std::size_t>(data->BufTextLen));
   data->Buf = text->data();
   return 0;
-}
-
-void hint_in(std::uint32_t colour, const ImVec2& corner, const ImVec2& size, const std::string& hint)
-{
-  const float wrap = 0.9f * size.x;
-  const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
-  const ImVec2 at{corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2};
-  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour, hint.c_str(), nullptr, wrap);
 }
 
 } // namespace
@@ -60,11 +51,12 @@ void draw_label(const char* text)
 
 void tooltip(const std::string& text) { ImGui::SetItemTooltip("%s", text.c_str()); }
 
-void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint) { hint_in(colour::quiet_text, corner, size, hint); }
-
-void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::string& hint)
+void draw_hint(std::uint32_t colour, const ImVec2& corner, const ImVec2& size, const std::string& hint)
 {
-  hint_in(colour::quiet_on_dark, corner, size, hint);
+  const float wrap = 0.9f * size.x;
+  const ImVec2 extent = ImGui::CalcTextSize(hint.c_str(), nullptr, false, wrap);
+  const ImVec2 at{corner.x + (size.x - extent.x) / 2, corner.y + (size.y - extent.y) / 2};
+  ImGui::GetWindowDrawList()->AddText(nullptr, 0, at, colour, hint.c_str(), nullptr, wrap);
 }
 
 void cell(const std::string& text)
@@ -108,15 +100,10 @@ void BarRows::bar(const std::function<void()>& draw)
   widths_[index] = ImGui::GetItemRectSize().x;
 }
 
-void WidgetPlaces::note(const std::string& widget)
+void WidgetPlaces::note(const std::string& widget, const std::string& help)
 {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   places_[widget] = {(low.x + high.x) / 2, (low.y + high.y) / 2};
-}
-
-void WidgetPlaces::note(const std::string& widget, const std::string& help)
-{
-  note(widget);
   if (!help.empty()) tooltip(help);
 }
 

@@ -24,10 +24,8 @@ void draw_wrapped(std::uint32_t colour, const std::string& text);
 void draw_label(const char* text);
 /// What is said of the widget drawn last, under the mouse.
 void tooltip(const std::string& text);
-/// A quiet sentence in the middle of an area of the window, wrapped at nine tenths of its width; on a panel, or on the dark ground of
-/// pictures and plots.
-void draw_hint(const ImVec2& corner, const ImVec2& size, const std::string& hint);
-void draw_hint_on_dark(const ImVec2& corner, const ImVec2& size, const std::string& hint);
+/// A sentence in the middle of an area of the window, wrapped at nine tenths of its width.
+void draw_hint(std::uint32_t colour, const ImVec2& corner, const ImVec2& size, const std::string& hint);
 
 /// The next cell of a table, with a text; as a heading, with help under the mouse.
 void cell(const std::string& text);
@@ -56,8 +54,7 @@ private:
 class WidgetPlaces {
 public:
   /// Of the widget drawn last, and its tooltip.
-  void note(const std::string& widget);
-  void note(const std::string& widget, const std::string& help);
+  void note(const std::string& widget, const std::string& help = {});
   /// What Dear ImGui has by these names, noted as `widget`.
   bool button(const char* label, const std::string& widget, const std::string& help = {});
   bool small_button(const char* label, const std::string& widget, const std::string& help = {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/inverse/annealing/history.h"
+#include "ui/inverse/annealing/panel.h"
 
 #include "measure/run_curves.h"
 #include "ui/widgets/theme.h"

@@ -91,7 +91,7 @@ void AnnealingPanel::draw_histories()
         histories_.push_back(history_lines(curve, look_));
   const float height = std::max(8 * em(), 0.19f * ImGui::GetWindowHeight());
   if (histories_.empty()) {
-    draw_hint(ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, height}, "The search has not begun");
+    draw_hint(colour::quiet_text, ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, height}, "The search has not begun");
     ImGui::Dummy({0, height});
   }
   for (const HistoryLines& lines : histories_) plots_[lines.name].draw(lines, look_.log, height);

@@ -48,7 +48,7 @@ void DispersionPanel::draw(const Context& context)
 {
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   const std::vector<std::string> names = dielectrics(*context.preset());
-  if (names.empty()) return draw_hint(corner, size, "No material of this preset is a dielectric");
+  if (names.empty()) return draw_hint(colour::quiet_text, corner, size, "No material of this preset is a dielectric");
   follow(context);
   draw_toolbar(context, names);
   std::string source = source_text(dispersion_, model_.curve());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/spectral/dispersion/plot.h"
+#include "ui/spectral/dispersion/panel.h"
 
 #include "base/counted.h"
 #include "ui/widgets/theme.h"

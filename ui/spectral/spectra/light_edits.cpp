@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/spectral/spectra/light_edits.h"
+#include "ui/spectral/spectra/curves.h"
 
 #include "base/error.h"
 #include "optics/wavelength.h"

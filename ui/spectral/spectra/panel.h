@@ -4,10 +4,59 @@
 // are edited here.
 #pragma once
 #include "ui/spectral/spectra/curves.h"
-#include "ui/spectral/spectra/plot.h"
 #include "ui/widgets/panel.h"
+#include "ui/widgets/plots.h"
+#include "ui/widgets/theme.h"
 
 namespace nephroid::ui {
+
+/// Which curves are shown.
+struct SpectraSwitches {
+  bool light = true, luminosity = true, u = true, iterations = true;
+  std::set<std::string> hidden; ///< materials whose reflectance is not
+};
+
+/// IM_COL32 of each curve; a reflectance has its own.
+namespace spectra_colour {
+inline constexpr std::uint32_t light = IM_COL32(255, 206, 112, 255), luminosity = IM_COL32(132, 204, 146, 255);
+inline constexpr std::uint32_t u = IM_COL32(206, 158, 255, 255); ///< most walls are white
+inline constexpr std::uint32_t iterations = colour::accent;
+inline constexpr std::uint32_t rim = IM_COL32(132, 132, 132, 255); ///< about what is in a dark colour, so that it is seen on the plot
+bool is_dark(std::uint32_t colour);
+/// As bytes for the display.
+std::uint32_t of(const std::array<double, 3>& srgb);
+} // namespace spectra_colour
+
+struct SpectraPlotContents {
+  const Spectra* spectra = nullptr;
+  const SpectraSwitches* switches = nullptr;
+  const preset::LightSpectrum* edited = nullptr; ///< of the light that is edited, rows sorted; null where there is none
+  std::size_t light = 0;                         ///< its index
+  std::optional<std::size_t> selected;           ///< the row of it that is marked
+};
+
+/// Curves between 0 and 1 and, below, the iterations of each cluster, over one wavelength axis. The rows of the light that is edited are
+/// points that can be dragged.
+class SpectraPlot {
+public:
+  /// In the window's free width; height in pixels.
+  RowGesture draw(const SpectraPlotContents& contents, WavelengthAxis& axis, float height);
+
+  /// For tests: where a value of the upper plot was drawn last, on the screen.
+  std::array<double, 2> place(double nm, double value) const { return area_.to_screen({nm, value}); }
+  /// What 1 stands for in the light's own units.
+  double unit() const { return unit_; }
+
+private:
+  RowGesture draw_curves(const SpectraPlotContents& contents, WavelengthAxis& axis, float height);
+  void draw_iterations(const SpectraPlotContents& contents, WavelengthAxis& axis, float height);
+  void draw_pointer(const SpectraPlotContents& contents, std::optional<int>& pointed);
+
+  RowHandles handles_;         ///< of the light that is edited
+  double unit_ = 1;            ///< stays while a row is held, or the others would move against it
+  std::optional<int> pointed_; ///< the wavelength (index) under the mouse, in either plot
+  PlotArea area_;              ///< the upper plot
+};
 
 class SpectraPanel : public Panel {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/spectral/spectra/plot.h"
+#include "ui/spectral/spectra/panel.h"
 
 #include "optics/colour.h"
 #include "ui/widgets/widgets.h"
