@@ -4,10 +4,6 @@
 #include "scenes.h"
 #include "tests/support/loaded_scenes.h"
 #include "ui/view/camera.h"
-#include "ui/view/placement.h"
-#include "ui/view/sight.h"
-
-#include <glm/glm.hpp>
 
 namespace nephroid::ui::camera_moves_test {
 

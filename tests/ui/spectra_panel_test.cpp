@@ -3,9 +3,6 @@
 // wrong is a sentence in it.
 #include "scene/materials.h"
 #include "scenes.h"
-#include "spectral/tables/run_tables.h"
-#include "ui/spectral/spectra/light_edits.h"
-#include "ui/spectral/spectra/panel.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::spectra_panel_test {
