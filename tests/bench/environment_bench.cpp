@@ -2,10 +2,8 @@
 // Engine 2 while something moves: from an edit of the preset to the picture that shows it, as the window has it (Job::adopt and a
 // snapshot), and how long it takes then until the first full picture, but for own directions, which are baked while it stands still. The
 // bunny at 512 x 512 with 24 lights and an occluder; NEPHROID_BENCH_PRESET names another preset. Its bake is read where there is one.
-#include "compute/compute.h"
 #include "environment/engine.h"
 #include "preset/read.h"
-#include "scene/scene.h"
 #include "tests/support/standard.h"
 
 #include <benchmark/benchmark.h>

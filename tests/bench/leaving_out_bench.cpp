@@ -3,9 +3,6 @@
 // of the processor, which other programs disturb less than the clock on the wall; the smallest of all turns counts. Where other
 // photons make the picture, `variance_ratio` is how many more of them the same error takes. Building is up to the third step, kernels
 // included: run with POCL_KERNEL_CACHE=0 to have them compiled.
-#include "compute/compute.h"
-#include "job/job.h"
-#include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 

@@ -2,10 +2,7 @@
 // Photons a second of engine 1 on the first-light scene, by phase: traced only (the camera looks away, so nothing is projected into a
 // pixel), traced and splatted, samples a second of the direct layer, and the time of a picture of 512 x 512, without and with smoothing.
 // Start-up and compiling are not counted.
-#include "compute/compute.h"
-#include "job/job.h"
 #include "preset/read.h"
-#include "scene/scene.h"
 #include "spectral/engine.h"
 
 #include <benchmark/benchmark.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gradient.h"
 
-#include "base/error.h"
 #include "preset/settings_type.h"
 #include "tests/support/standard.h"
 

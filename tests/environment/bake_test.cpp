@@ -4,8 +4,6 @@
 #include "base/hashed_bytes.h"
 #include "environment/bake/bake.h"
 #include "environment/checks.h"
-#include "optics/colour.h"
-#include "optics/fresnel.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/test.h"
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Presets of engine 2 built in a test, and their bakes.
 #pragma once
-#include "compute/compute.h"
 #include "environment/bake/baker.h"
-#include "environment/settings.h"
 #include "preset/read.h"
 #include "tests/support/test_kernels.h"
 

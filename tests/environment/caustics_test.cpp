@@ -2,9 +2,6 @@
 // Baked spheres under lights, on a device: bakes made by formula, looked up where the formula says what is there.
 #include "environment/light/caustics.h"
 
-#include "environment/bake/bake.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The directions of a bake and the map of a sphere; which baked directions stand for a light, and how their spheres are turned; directions
 // that are baked while they are shown.
-#include "environment/bake/bake.h"
-#include "environment/bake/baker.h"
-#include "environment/light/distant_lights.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "tests/environment/views.h"
 #include "tests/support/saved_jobs.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme skies, lamps, objects and receivers of engine 2. docs/notebook/extremes.md has the table.
 #include "tests/support/extremes.h"
-#include "tests/support/process_state.h"
 
 #include "environment/checks.h"
 #include "image/image.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of engine 2: the plan, the file that a second start reads and what is wrong with such a file, a run that goes on with the same bits,
 // bad input.
-#include "environment/bake/bake.h"
 #include "tests/environment/views.h"
 #include "tests/support/saved_jobs.h"
 

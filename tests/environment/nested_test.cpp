@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Casters of several objects: which they are, glass in glass against rays in double precision, what their bake and its key depend on.
-#include "environment/bake/caster.h"
 #include "environment/checks.h"
-#include "optics/fresnel.h"
-#include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/test.h"
 

@@ -6,8 +6,6 @@
 #include "tests/environment/maps.h"
 #include "tests/environment/picture_files.h"
 
-#include <nlohmann/json.hpp>
-
 namespace nephroid::program_test {
 
 using nlohmann::json;

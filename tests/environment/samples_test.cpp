@@ -3,7 +3,6 @@
 // texel of the cube.
 #include "environment/occlusion/occlusion.h"
 #include "environment/occlusion/samples.h"
-#include "scene/bvh.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"

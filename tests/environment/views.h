@@ -2,9 +2,6 @@
 // Small scenes about a glass ball of radius 1 for the renderer of engine 2, and what its pictures show.
 #pragma once
 #include "environment/engine.h"
-#include "environment/settings.h"
-#include "job/job.h"
-#include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/process_state.h"
 
@@ -61,11 +58,8 @@ inline preset::Preset ball_and(const std::string& others, const preset::Override
 
 inline preset::Light lamp(const glm::dvec3& direction, double irradiance_w_m2 = 1)
 {
-  preset::Light light;
-  light.type = preset::Light::Type::directional;
-  light.direction = {direction.x, direction.y, direction.z};
-  light.irradiance_w_m2 = irradiance_w_m2;
-  return light;
+  return {
+      .type = preset::Light::Type::directional, .irradiance_w_m2 = irradiance_w_m2, .direction = {direction.x, direction.y, direction.z}};
 }
 
 inline void even_light(preset::Preset& p, double radiance = 1)

@@ -2,7 +2,6 @@
 // Caustics in the air about glass against photons in the same medium (medium_photons.h), as pictures.
 // Light in a medium around an object that sends it evenly to all sides: then what a path from the eye collects is an integral with a closed
 // form.
-#include "environment/bake/bake.h"
 #include "environment/light/distant_lights.h"
 #include "environment/view/renderer.h"
 #include "image/image.h"

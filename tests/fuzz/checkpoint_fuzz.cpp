@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checkpoints of every engine: the first byte chooses a job; the rest is a header, before the job's state and a right hash, or a whole
 // file. Only what the job wrote is loaded. A wrong state under a right hash is not asked for: nothing but the program writes that hash.
-#include "base/files.h"
 #include "base/hashed_bytes.h"
-#include "measure/measured_job.h"
 #include "preset/read.h"
 #include "run/run.h"
 #include "tests/fuzz/harness.h"

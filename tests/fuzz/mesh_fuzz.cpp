@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the mesh reader's program answers, and what is made of a mesh that is believed; the first bytes of a mesh file.
 #include "scene/bvh.h"
-#include "scene/mesh.h"
 #include "scene/mesh_parts.h"
 #include "tests/fuzz/harness.h"
 

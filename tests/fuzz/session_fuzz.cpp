@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window's session and its settings. What is read is written and read again.
-#include "preset/read.h"
 #include "tests/fuzz/harness.h"
-#include "ui/state/commands.h"
 #include "ui/state/session.h"
 
 namespace nephroid::fuzz {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bad command lines: each is answered by one line on standard error that says what is wrong, the exit code of the contract, nothing
 // on standard output and no file.
-#include "tests/support/child.h"
 #include "tests/support/program_test.h"
-
-#include <nlohmann/json.hpp>
 
 namespace nephroid::cli_test {
 

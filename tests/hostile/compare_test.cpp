@@ -4,8 +4,6 @@
 #include "tests/support/pictures.h"
 #include "tests/support/program_test.h"
 
-#include <nlohmann/json.hpp>
-
 namespace nephroid::compare_test {
 
 using json = nlohmann::ordered_json;

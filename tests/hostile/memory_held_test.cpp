@@ -4,8 +4,6 @@
 // its libraries and the device's compiler.
 #include "tests/support/program_test.h"
 
-#include <nlohmann/json.hpp>
-
 #include <sys/resource.h>
 
 namespace nephroid::memory_held_test {

@@ -5,7 +5,6 @@
 #include "tests/support/program_test.h"
 
 #include <bit>
-#include <csignal>
 #include <sys/stat.h>
 
 namespace nephroid::mesh_test {

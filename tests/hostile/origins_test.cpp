@@ -3,8 +3,6 @@
 // an override names are looked for.
 #include "tests/support/program_test.h"
 
-#include <nlohmann/json.hpp>
-
 namespace nephroid::origins_test {
 
 using nlohmann::json;

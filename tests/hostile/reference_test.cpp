@@ -5,8 +5,6 @@
 #include "measure/history_file.h"
 #include "tests/support/plate_runs.h"
 
-#include <nlohmann/json.hpp>
-
 namespace nephroid::reference_test {
 
 using nephroid::read_file;

@@ -4,8 +4,6 @@
 #include "image/image.h"
 #include "tests/support/program_test.h"
 
-#include <nlohmann/json.hpp>
-
 namespace nephroid::resume_test {
 
 using nephroid::read_file;

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs that are interrupted, killed, resumed, repeated, given one thread or two, a full disk, no HOME: the same bits or a clear line.
-#include "image/image.h"
 #include "measure/history_file.h"
 #include "preset/read.h"
 #include "run/run.h"
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
 #include "tests/support/test_kernels.h"
-
-#include <nlohmann/json.hpp>
 
 #include <sys/mount.h>
 

@@ -6,8 +6,6 @@
 #include "scene/scene.h"
 #include "tests/support/program_test.h"
 
-#include <nlohmann/json.hpp>
-
 namespace nephroid::spectral_input_test {
 
 using nlohmann::json;

@@ -3,8 +3,6 @@
 // names, and one line for whatever is wrong, here and with spectral.effort elsewhere.
 #include "tests/support/program_test.h"
 
-#include <nlohmann/json.hpp>
-
 namespace nephroid::spectral_verbs_test {
 
 using nlohmann::json;

@@ -72,10 +72,7 @@ preset::Preset nested()
   for (std::size_t i = 0; i < 3; ++i) p.scene.objects[i].normals = preset::Object::Normals::smooth;
   p.scene.objects[1].priority = 2;
   p.scene.objects[2].priority = 1;
-  preset::Light light;
-  light.position = {0.6, 6, 2.5};
-  light.power_w = 5;
-  p.scene.lights = {light};
+  p.scene.lights = {{.power_w = 5, .position = {0.6, 6, 2.5}}};
   p.scene.camera.position = {1, 5, 7};
   p.scene.camera.target = {-0.3, 0.4, 0};
   p.scene.camera.fov_deg = 42;

@@ -3,10 +3,8 @@
 // and its smoothing.
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
-#include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
-#include "inverse/pictures/target.h"
 #include "tests/inverse/searches.h"
 #include "tests/inverse/sound.h"
 #include "tests/support/saved_jobs.h"

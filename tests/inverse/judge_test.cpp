@@ -5,7 +5,6 @@
 #include "inverse/bending.h"
 #include "inverse/judge.h"
 #include "optics/fresnel.h"
-#include "scene/bvh.h"
 #include "tests/support/test.h"
 
 namespace nephroid::judge_test {

@@ -3,7 +3,7 @@
 #include "inverse/bending.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
-#include "tests/support/test.h"
+#include "tests/support/saved_jobs.h"
 
 #include <glm/gtc/constants.hpp>
 
@@ -63,17 +63,6 @@ TEST(Transport, ShrinksARectangle)
   EXPECT_LT(sum / (63 * 95), 0.02);
 }
 
-inverse::Layout object()
-{
-  inverse::Layout layout;
-  layout.size = layout.receiver = {60, 40};
-  layout.facets = {120, 80};
-  layout.cells = {30, 20};
-  layout.distances = {150};
-  layout.thickness = 12;
-  return layout;
-}
-
 inverse::Target disc(const inverse::Layout& layout)
 {
   inverse::Target target;
@@ -84,11 +73,21 @@ inverse::Target disc(const inverse::Layout& layout)
   return target;
 }
 
-TEST(Lens, IsJudgedAsItBelievesAndHasNoWalls)
+class Lens : public testing::Test {
+protected:
+  static void advance(inverse::Lens& method, int steps)
+  {
+    for (int i = 0; i < steps; ++i) method.advance();
+  }
+
+  inverse::Layout layout{
+      .size = {60, 40}, .thickness = 12, .facets = {120, 80}, .receiver = {60, 40}, .cells = {30, 20}, .distances = {150}};
+  inverse::Target target = disc(layout);
+  inverse::Lens lens{layout, target, own};
+};
+
+TEST_F(Lens, IsJudgedAsItBelievesAndHasNoWalls)
 {
-  const inverse::Layout layout = object();
-  const inverse::Target target = disc(layout);
-  inverse::Lens lens(layout, target, own);
   const double flat = lens.costs().front().rel_l2;
   while (!lens.finished() && lens.steps() < lens.most()) lens.advance();
   const double believed = lens.costs().front().rel_l2;
@@ -103,36 +102,28 @@ TEST(Lens, IsJudgedAsItBelievesAndHasNoWalls)
   EXPECT_NEAR(judge.fates().sent + judge.fates().reflected + judge.fates().lost, 1, 1e-12);
 }
 
-TEST(Lens, GoesOnWithTheSameBits)
+TEST_F(Lens, GoesOnWithTheSameBits)
 {
-  const inverse::Layout layout = object();
-  const inverse::Target target = disc(layout);
-  inverse::Lens whole(layout, target, own), first(layout, target, own), second(layout, target, own);
-  for (int i = 0; i < 6; ++i) whole.advance();
-  for (int i = 0; i < 3; ++i) first.advance();
+  inverse::Lens first(layout, target, own), second(layout, target, own);
+  advance(lens, 6);
+  advance(first, 3);
   ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
-  for (int i = 0; i < 3; ++i) second.advance();
-  EXPECT_EQ(whole.steps(), second.steps());
-  EXPECT_EQ(whole.light(0), second.light(0));
+  advance(second, 3);
+  EXPECT_EQ(lens.steps(), second.steps());
+  EXPECT_EQ(lens.light(0), second.light(0));
 }
 
-TEST(Lens, IsRefusedWhereItReachesTheFront)
+TEST_F(Lens, IsRefusedWhereItReachesTheFront)
 {
-  inverse::Layout layout = object();
   layout.thickness = 0.2;
-  const inverse::Target target = disc(layout);
-  inverse::Lens lens(layout, target, own);
-  for (int i = 0; i < 6; ++i) lens.advance();
+  advance(lens, 6);
   EXPECT_THAT(refusal_of([&] { lens.solid(); }), StartsWith("p.json#/inverse/thickness_mm: is 0.2 mm, and half of the lens's relief is "));
 }
 
 // Each facet is four triangles about its middle: what a workshop is told is the steepest of them.
-TEST(Lens, IsAsSteepAsItsTriangles)
+TEST_F(Lens, IsAsSteepAsItsTriangles)
 {
-  inverse::Layout layout = object();
-  const inverse::Target target = disc(layout);
-  inverse::Lens lens(layout, target, own);
-  for (int i = 0; i < 6; ++i) lens.advance();
+  advance(lens, 6);
   const inverse::Solid solid = lens.solid();
   double steepest = 0;
   for (std::size_t t = 0; t < solid.parts.size(); ++t)
@@ -146,28 +137,24 @@ TEST(Lens, IsAsSteepAsItsTriangles)
   EXPECT_THROW(lens.solid(), Error) << "max_slope_deg";
 }
 
-TEST(Lens, KeepsAWorkshopsRelief)
+TEST_F(Lens, KeepsAWorkshopsRelief)
 {
-  inverse::Layout layout = object();
   layout.band = 0.1;
-  const inverse::Target target = disc(layout);
-  inverse::Lens lens(layout, target, own);
-  for (int i = 0; i < 6; ++i) lens.advance();
+  advance(lens, 6);
   EXPECT_THROW(lens.solid(), Error);
 }
 
 // Of such an object the grid would have less than a row; and of so fine a picture it has no cell's middle in the only one that is lit.
-TEST(Lens, HasNarrowObjectsAndFinePictures)
+TEST_F(Lens, HasNarrowObjectsAndFinePictures)
 {
-  inverse::Layout layout = object();
   layout.size = layout.receiver = {600, 0.5};
   layout.facets = {120, 1};
   layout.cells = {1000, 2};
-  inverse::Target target(2000);
+  target.assign(2000, 0);
   target[500] = 1;
-  inverse::Lens lens(layout, target, own);
-  for (int i = 0; i < 3; ++i) lens.advance();
-  EXPECT_TRUE(std::isfinite(lens.costs().front().rel_l2));
+  inverse::Lens narrow(layout, target, own);
+  advance(narrow, 3);
+  EXPECT_TRUE(std::isfinite(narrow.costs().front().rel_l2));
 }
 
 TEST(FacetSlope, TakesBackFacetGradient)

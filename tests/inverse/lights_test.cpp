@@ -5,7 +5,6 @@
 #include "inverse/judge.h"
 #include "inverse/light.h"
 #include "optics/fresnel.h"
-#include "scene/bvh.h"
 #include "tests/support/test.h"
 
 namespace nephroid::lights_test {

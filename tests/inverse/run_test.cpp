@@ -7,7 +7,6 @@
 #include "tests/support/program_test.h"
 #include "tests/support/x_display.h"
 
-#include <glm/glm.hpp>
 namespace nephroid::run_test {
 
 using nlohmann::json;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The object is one closed solid, whatever its facets are; the files it is written to.
-#include "image/image.h"
 #include "inverse/bending.h"
 #include "inverse/facets/files.h"
 #include "inverse/facets/heights.h"

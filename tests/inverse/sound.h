@@ -2,7 +2,6 @@
 // Objects with random facets, and what is asked of every mesh of one.
 #pragma once
 #include "inverse/facets/solid.h"
-#include "scene/mesh.h"
 #include "tests/support/test.h"
 
 namespace nephroid::test {

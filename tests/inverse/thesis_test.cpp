@@ -29,12 +29,9 @@ protected:
     targets[0][8 * 16 + 0] = 1;
     targets[1][8 * 16 + 15] = 1;
   }
-  static void finish(Pipeline& pipeline)
+  static job::Snapshot finish(Pipeline& pipeline)
   {
     while (!pipeline.finished()) pipeline.advance();
-  }
-  static job::Snapshot shown(const Pipeline& pipeline)
-  {
     job::Snapshot snapshot;
     pipeline.show(snapshot);
     return snapshot;
@@ -51,9 +48,8 @@ TEST_F(ThesisPipeline, GainsInEveryStageAndEnds)
   for (const Thesis::Adjust adjust : {Thesis::Adjust::convergence, Thesis::Adjust::each}) {
     settings.adjust = adjust;
     Pipeline pipeline(layout, targets, settings, 1);
-    finish(pipeline);
+    const job::Snapshot s = finish(pipeline);
     EXPECT_LE(pipeline.steps(), pipeline.most());
-    const job::Snapshot s = shown(pipeline);
     for (const char* stage : {"annealing_1", "annealing_2", "correction"})
       EXPECT_GE(job::scalar(s, "thesis", std::string("gain_") + stage), 0) << stage;
     EXPECT_GT(job::scalar(s, "thesis", "gain_annealing_1"), 0.005);
@@ -82,10 +78,10 @@ TEST_F(ThesisPipeline, GoesOnWithTheSameBitsInEveryStage)
     for (const auto& cut : cuts) {
       Pipeline other(layout, targets, settings, 7);
       ASSERT_TRUE(test::load<State>(other, cut));
-      finish(other);
+      const job::Curve curve = finish(other).curves.at(0);
       ASSERT_EQ(other.slopes(), whole.slopes());
       ASSERT_EQ(other.light(0), whole.light(0));
-      ASSERT_EQ(shown(other).curves.at(0).rows, shown(whole).curves.at(0).rows);
+      ASSERT_EQ(curve.rows, finish(whole).curves.at(0).rows);
     }
     Pipeline seeded(layout, targets, settings, 8);
     finish(seeded);
@@ -100,8 +96,7 @@ TEST_F(ThesisPipeline, CountsFacetsWithoutADirection)
   settings.sampling = Thesis::Sampling::rejection;
   settings.cycles = 0;
   Pipeline pipeline(layout, targets, settings, 1);
-  finish(pipeline);
-  const job::Snapshot s = shown(pipeline);
+  const job::Snapshot s = finish(pipeline);
   EXPECT_EQ(job::scalar(s, "thesis", "dark_facets"), 1024);
   EXPECT_EQ(job::scalar(s, "thesis", "cost_correction"), 1);
   EXPECT_EQ(job::scalar(s, "thesis", "missing_cells_1"), 1);
@@ -116,8 +111,7 @@ TEST_F(ThesisPipeline, ReachesMissingCellsBySecondAnnealing)
   light_edges();
   settings.size_limit = 0;
   Pipeline pipeline(layout, targets, settings, 1);
-  finish(pipeline);
-  const job::Snapshot s = shown(pipeline);
+  const job::Snapshot s = finish(pipeline);
   EXPECT_LT(job::scalar(s, "thesis", "dark_facets"), 1024);
   EXPECT_EQ(job::scalar(s, "thesis", "gain_annealing_1"), 0);
   EXPECT_GT(job::scalar(s, "thesis", "gain_annealing_2"), 0.05);

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has. Photons against an independent tracer;
 // photon maps.
-#include "kernels/tracing/shared_types.h"
 #include "spectral/maps/photon_map.h"
 #include "tests/support/reference_photons.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
-#include "tests/support/test_kernels.h"
 
 namespace nephroid::photons_test {
 
@@ -72,8 +70,7 @@ preset::Preset glass_preset()
   p.scene.materials["glass"] = dispersive;
   p.scene.materials["floor"].reflectance.type = preset::Reflectance::Type::patch;
   p.scene.materials["floor"].reflectance.patch = "orange";
-  p.scene.materials["mirror"].type = preset::Material::Type::mirror;
-  p.scene.materials["mirror"].reflectance.value = 1;
+  p.scene.materials["mirror"] = check::mirror(1);
   preset::Shape ball, diamond;
   ball.radius = 1;
   diamond.type = preset::Shape::Type::brilliant;

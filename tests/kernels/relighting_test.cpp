@@ -5,7 +5,6 @@
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
-#include "tests/support/statistics.h"
 
 namespace nephroid::relighting_test {
 
@@ -252,10 +251,8 @@ TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory)
 {
   preset::Preset p = layered(tiled_scene());
   p.scene.camera.resolution = {128, 128};
-  const scene::Scene scene = scene::load_scene(p);
-  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const spectral::RunPlan plan = spectral::make_plan(p, scene, bvh);
-  const auto job = spectral::make_job(p, scene, bvh, plan, shared_context());
+  const spectral::RunPlan plan = plan_of(p);
+  const auto job = job_as_it_is(p);
   EXPECT_THAT(plan.passes, Not(Contains(testing::Field(&plan::Pass::name, "dark lights")))) << "it is kept";
   EXPECT_THAT(plan.passes, Contains(testing::Field(&plan::Pass::name, "relighting")));
   std::uint64_t films = 0;

@@ -2,12 +2,9 @@
 // The layer "background" against closed forms: exact colours, which way up and round a map is, radiance that glass keeps, Beer's law in a
 // plate, and Snell's law in a prism that takes white light apart.
 #include "image/image.h"
-#include "optics/colour.h"
 #include "optics/fresnel.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
-
-#include <glm/glm.hpp>
 
 namespace nephroid::background_test {
 
@@ -325,8 +322,7 @@ TEST(Background, APrismTakesWhiteApart)
 TEST(Background, IsLeftOutWhereThereIsNothingToSee)
 {
   const auto pass = [](const preset::Preset& p) {
-    const scene::Scene scene = scene::load_scene(p);
-    for (const plan::Pass& candidate : spectral::make_plan(p, scene, scene::build_bvh(scene.geometry)).passes)
+    for (const plan::Pass& candidate : plan_of(p).passes)
       if (candidate.name == "background") return candidate;
     return plan::Pass{};
   };

@@ -2,7 +2,6 @@
 // The environment as a light: colours and irradiance of a map against sums over its texels, one hot texel against directional light of the
 // same irradiance, the balance of energy, and runs that go on with the same bits. White furnaces under a sky: white_furnace_test.cpp.
 #include "image/image.h"
-#include "optics/colour.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
@@ -276,8 +275,7 @@ TEST(EnvironmentLight, IsAskedFor)
   EXPECT_FALSE(preset::Environment{}.lights);
   EXPECT_TRUE(scene::load_scene(p).lights.empty());
   const auto row = [&] {
-    const scene::Scene scene = scene::load_scene(p);
-    const auto plan = spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
+    const auto plan = plan_of(p);
     const auto found =
         std::find_if(plan.passes.begin(), plan.passes.end(), [](const auto& pass) { return pass.name == "environment light"; });
     return found == plan.passes.end() ? std::string("no row") : (found->runs ? "runs: " : "") + found->reason;

@@ -4,7 +4,6 @@
 #include "optics/fresnel.h"
 #include "spectral/clusters/clusters.h"
 #include "tests/support/extremes.h"
-#include "tests/support/test_kernels.h"
 
 namespace nephroid::extreme_glass_test {
 
@@ -54,8 +53,7 @@ Outcome gap_in_glass(double n_block, double n_gap, double theta_deg)
 {
   preset::Preset p = plate(n_gap, theta_deg);
   p.scene.materials["block"] = glass(n_block);
-  p.scene.materials["black"].type = preset::Material::Type::mirror;
-  p.scene.materials["black"].reflectance.value = 0;
+  p.scene.materials["black"] = check::mirror(0);
   p.scene.objects[1].priority = 1;
   p.scene.objects.push_back(object("block", box(900, 10, 900), "block"));
   p.scene.objects.push_back(object("trap", quad(40, 40), "black", at({0, 2, 0})));

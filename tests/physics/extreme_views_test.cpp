@@ -2,7 +2,6 @@
 // Extreme views and settings: counts of one and far too many, pictures of one pixel and of 1 x 4096, telescopes, cameras in glass, in a
 // mirror, in a surface and close to it, any white. docs/notebook/extremes.md has the table.
 #include "tests/support/extreme_waves.h"
-#include "tests/support/extremes.h"
 
 namespace nephroid::extreme_views_test {
 
@@ -199,10 +198,8 @@ preset::Preset scaled(preset::Preset p, double factor)
 
 std::string notes_of(const preset::Preset& p)
 {
-  const scene::Scene scene = scene::load_scene(p);
   std::string lines;
-  for (const std::string& note : spectral::make_plan(p, scene, scene::build_bvh(scene.geometry)).notes)
-    lines += (lines.empty() ? "" : " / ") + note;
+  for (const std::string& note : plan_of(p).notes) lines += (lines.empty() ? "" : " / ") + note;
   return lines;
 }
 

@@ -218,8 +218,7 @@ const std::vector<Extreme> extremes = {
      [] {
        preset::Preset p = in_clusters(1e-4);
        spectral::settings(p).photons_per_pass = 1;
-       const scene::Scene scene = scene::load_scene(p);
-       const spectral::RunPlan plan = spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
+       const spectral::RunPlan plan = plan_of(p);
        return says(plan.notes.empty() ? "" : plan.notes[0],
                    "spectral.photons_per_pass: raised from 1 to 401, one for each cluster of each light");
      }},

@@ -79,14 +79,12 @@ TEST_P(DiffuseFurnace, IsEvenlyLit)
   preset::Shape room = check::ball(radius);
   room.inwards = true;
   p.scene.objects = {object("room", room, "wall")};
-  preset::Light light;
-  light.type = GetParam().type;
-  light.spectrum.illuminant = "E";
-  light.power_w = power;
-  light.position = GetParam().position;
-  light.direction = {1, 0, 0};
-  light.size = {0.3, 0.2};
-  p.scene.lights = {light};
+  p.scene.lights = {{.type = GetParam().type,
+                     .spectrum = {.illuminant = "E"},
+                     .power_w = power,
+                     .position = GetParam().position,
+                     .direction = {1, 0, 0},
+                     .size = {0.3, 0.2}}};
   if (GetParam().glass_radius > 0) {
     p.scene.objects.push_back(object("bulb", check::ball(GetParam().glass_radius), "glass"));
     p.scene.objects.back().normals = preset::Object::Normals::smooth;
@@ -256,16 +254,12 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   TemporaryFolder temporary;
   const preset::Preset p = open_room(temporary.path());
   const job::Snapshot whole = render(p);
-  const scene::Scene scene = scene::load_scene(p);
-  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const spectral::RunPlan plan = spectral::make_plan(p, scene, bvh);
-  auto job = spectral::make_job(p, scene, bvh, plan, shared_context());
+  auto job = job_as_it_is(p);
   for (int i = 0; i < 5; ++i) job->step();
   const std::vector<std::byte> state = test::saved(*job);
-  job = spectral::make_job(p, scene, bvh, plan, shared_context());
+  job = job_as_it_is(p);
   test::load(*job, state);
-  while (!job->finished()) job->step();
-  const job::Snapshot resumed = job->snapshot();
+  const job::Snapshot resumed = render(*job);
   EXPECT_EQ(layer(resumed, "indirect").rgb, layer(whole, "indirect").rgb);
   EXPECT_EQ(spectral::energy_of(resumed, "indirect_energy").escaped_w, spectral::energy_of(whole, "indirect_energy").escaped_w);
 }

@@ -3,7 +3,6 @@
 // made in scenes that come close to not needing it.
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
-#include "tests/support/render.h"
 #include "tracing/targets.h"
 
 namespace nephroid::leaving_out_test {

@@ -141,13 +141,7 @@ preset::Preset glass_in_view(Estimator estimator, Effort effort = Effort::power)
   p.unit = preset::Preset::Unit::cm;
   p.scene.objects = {object("ball", check::ball(0.5), "glass", at({0, 0.7, 0})), object("floor", quad(8, 8), "floor"),
                      object("mirror", quad(3, 2), "mirror", at({0, 1, -1.2}, {90, 0, 0}))};
-  preset::Light lamp;
-  lamp.position = {1, 3, 1};
-  lamp.power_w = 2;
-  preset::Light second = lamp;
-  second.position = {-1, 2, 1};
-  second.spectrum.illuminant = "A";
-  p.scene.lights = {lamp, second};
+  p.scene.lights = {{.power_w = 2, .position = {1, 3, 1}}, {.spectrum = {.illuminant = "A"}, .power_w = 2, .position = {-1, 2, 1}}};
   p.scene.camera.position = {0, 1.5, 4};
   p.scene.camera.target = {0, 0.5, 0};
   spectral::settings(p).direct = true;
@@ -181,14 +175,8 @@ protected:
 // bits of one that never was.
 TEST_P(MapRuns, ResumedAnywhereTheyEndWithTheSameBits)
 {
-  const preset::Preset p = preset();
-  const scene::Scene scene = scene::load_scene(p);
-  const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const spectral::RunPlan plan = spectral::make_plan(p, scene, bvh);
-  const auto make = [&] { return spectral::make_job(p, scene, bvh, plan, shared_context()); };
-  const auto whole = make();
-  while (!whole->finished()) whole->step();
-  const job::Snapshot truth = whole->snapshot();
+  const auto make = [p = preset()] { return job_as_it_is(p); };
+  const job::Snapshot truth = render(*make());
 
   auto job = make();
   int steps = 0;
@@ -232,12 +220,6 @@ INSTANTIATE_TEST_SUITE_P(Estimators, MapRuns,
                                          Case{"sppm", Estimator::sppm, Effort::importance, false},
                                          Case{"random", Estimator::sppm, Effort::random, false}),
                          [](const auto& c) { return std::string(c.param.name); });
-
-plan::Plan plan_of(const preset::Preset& p)
-{
-  const scene::Scene scene = scene::load_scene(p);
-  return spectral::make_plan(p, scene, scene::build_bvh(scene.geometry));
-}
 
 plan::Pass pass_of(const plan::Plan& plan, const std::string& name)
 {

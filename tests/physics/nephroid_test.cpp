@@ -42,8 +42,7 @@ preset::Preset cup(const TemporaryFolder& folder)
 {
   write_half_cylinder(folder.path() / "wall.obj");
   preset::Preset p = empty_preset();
-  p.scene.materials["mirror"].type = preset::Material::Type::mirror;
-  p.scene.materials["mirror"].reflectance.value = 1;
+  p.scene.materials["mirror"] = check::mirror(1);
   p.scene.materials["white"] = white();
   preset::Object wall;
   wall.name = "wall";

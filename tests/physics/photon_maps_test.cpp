@@ -170,10 +170,7 @@ preset::Preset ball_caustic()
   flint.dispersion.coefficients = {1.65, 0.03};
   p.scene.objects = {object("ball", check::ball(0.5), "glass", at({0, 1, 0})), object("floor", quad(20, 20), "floor")};
   p.scene.objects[0].normals = preset::Object::Normals::smooth;
-  preset::Light light;
-  light.position = {-3, 4, 0};
-  light.power_w = 100;
-  p.scene.lights = {light};
+  p.scene.lights = {{.power_w = 100, .position = {-3, 4, 0}}};
   p.scene.camera.position = {1.2, 2.5, 0.01};
   p.scene.camera.target = {1.2, 0, 0};
   p.scene.camera.fov_deg = 30;

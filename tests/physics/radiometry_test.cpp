@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Absolute radiometry: what each light sends, what reaches a surface and what the camera makes of it, against closed forms; photons of a
 // large area light; where photons end. tests/images/shipped_presets_test.cpp looks at the balance of every preset.
-#include "spectral/energy.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
@@ -9,9 +8,12 @@ namespace nephroid::radiometry_test {
 
 /// A floor seen from straight above, a light above it, and nothing or a sheet of "glass" with n = 1 between them.
 /// The floor is the plane y = 0, reflectance 1; the camera is at height 2 and sees 1 m x 1 m of it.
-preset::Preset floor_preset()
+/// Direct light alone, of so many passes.
+preset::Preset floor_preset(int passes)
 {
   preset::Preset p = empty_preset(32);
+  spectral::settings(p).direct = true;
+  p.stop.passes = passes;
   p.scene.camera.position = {0, 2, 0};
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.up = {0, 0, -1};
@@ -19,18 +21,8 @@ preset::Preset floor_preset()
   p.scene.materials["white"] = white();
   p.scene.materials["nothing"] = glass(1);
   p.scene.objects.push_back(object("floor", quad(10, 10), "white"));
-  preset::Light light;
-  light.spectrum.illuminant = "E";
-  light.position = {0.1, 1, -0.2};
-  light.power_w = 5;
-  p.scene.lights.push_back(light);
+  p.scene.lights = {{.spectrum = {.illuminant = "E"}, .power_w = 5, .position = {0.1, 1, -0.2}}};
   return p;
-}
-
-/// A sheet that the light crosses before the floor, but that does not hide the floor from the camera: far to the side of its view.
-void add_sheet(preset::Preset& p, double height)
-{
-  p.scene.objects.push_back(object("sheet", box(8, 0.01, 8), "nothing", at({0, height, 0})));
 }
 
 /// The colour of radiance E / pi at floor point (x, z), for the light's spectrum of unit sum.
@@ -67,9 +59,7 @@ Ratio compare(const job::Snapshot& snapshot, const std::string& name, const Trut
 
 TEST(Radiometry, DirectLightOfAPoint)
 {
-  preset::Preset p = floor_preset();
-  spectral::settings(p).direct = true;
-  p.stop.passes = 64;
+  preset::Preset p = floor_preset(64);
   const double intensity = p.scene.lights[0].power_w / (4 * M_PI);
   const Ratio r = compare(render(p), "direct", [&](double x, double z) { return irradiance_of_point(p.scene.lights[0], intensity, x, z); });
   expect_truth("radiometry: direct light of a point over its closed form", r.mean, 1, 1e-3);
@@ -78,9 +68,7 @@ TEST(Radiometry, DirectLightOfAPoint)
 
 TEST(Radiometry, DirectLightOfASpotInsideItsCone)
 {
-  preset::Preset p = floor_preset();
-  spectral::settings(p).direct = true;
-  p.stop.passes = 64;
+  preset::Preset p = floor_preset(64);
   preset::Light& light = p.scene.lights[0];
   light.type = preset::Light::Type::spot;
   light.half_angle_deg = 80;
@@ -91,9 +79,7 @@ TEST(Radiometry, DirectLightOfASpotInsideItsCone)
 
 TEST(Radiometry, DirectLightOfADirectionalLight)
 {
-  preset::Preset p = floor_preset();
-  spectral::settings(p).direct = true;
-  p.stop.passes = 4;
+  preset::Preset p = floor_preset(4);
   preset::Light& light = p.scene.lights[0];
   light.type = preset::Light::Type::directional;
   light.direction = {1, -1, 0};
@@ -106,9 +92,7 @@ TEST(Radiometry, DirectLightOfADirectionalLight)
 /// The irradiance of a small area light is that of a point of intensity power cos / pi.
 TEST(Radiometry, DirectLightOfASmallAreaLight)
 {
-  preset::Preset p = floor_preset();
-  spectral::settings(p).direct = true;
-  p.stop.passes = 64;
+  preset::Preset p = floor_preset(64);
   preset::Light& light = p.scene.lights[0];
   light.type = preset::Light::Type::area;
   light.size = {0.02, 0.02};
@@ -126,8 +110,9 @@ class Photons : public testing::TestWithParam<preset::Light::Type> {};
 
 TEST_P(Photons, ThroughNothingMakeTheDirectPicture)
 {
-  preset::Preset p = floor_preset();
-  add_sheet(p, 0.9);
+  preset::Preset p = floor_preset(16);
+  spectral::settings(p).direct = false;
+  p.scene.objects.push_back(object("sheet", box(8, 0.01, 8), "nothing", at({0, 0.9, 0})));
   p.scene.camera.position = {0, 0.5, 0};
   p.scene.camera.fov_deg = 90;
   preset::Light& light = p.scene.lights[0];
@@ -137,7 +122,6 @@ TEST_P(Photons, ThroughNothingMakeTheDirectPicture)
   light.irradiance_w_m2 = 7;
   light.size = {0.01, 0.01};
   light.up = {0, 0, 1};
-  p.stop.passes = 16;
   spectral::settings(p).photons_per_pass = 1 << 18;
   const double cone = 2 * M_PI * (1 - std::cos(75 * M_PI / 180));
   const double length = std::hypot(0.3, 1, 0.2);
@@ -183,13 +167,7 @@ preset::Preset floor_under_a_panel(bool sheet)
   p.scene.materials = {{"white", white()}, {"nothing", glass(1)}};
   p.scene.objects = {object("floor", quad(10, 10), "white")};
   if (sheet) p.scene.objects.push_back(object("sheet", box(8, 0.01, 8), "nothing", at({0, 0.9, 0})));
-  preset::Light panel;
-  panel.type = preset::Light::Type::area;
-  panel.spectrum.illuminant = "E";
-  panel.position = {0.3, 1, -0.4};
-  panel.direction = {0, -1, 0};
-  panel.size = {1.6, 1.6};
-  p.scene.lights = {panel};
+  p.scene.lights = {{.type = preset::Light::Type::area, .spectrum = {.illuminant = "E"}, .position = {0.3, 1, -0.4}, .size = {1.6, 1.6}}};
   p.scene.camera.position = {0, 0.5, 0};
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.up = {0, 0, -1};
@@ -313,14 +291,11 @@ TEST(Energy, WhatEscapesIsWhatARoomCatches)
   p.scene.materials["glass"] = glass(1.8);
   p.scene.materials["mirror"].type = preset::Material::Type::mirror;
   p.scene.materials["white"] = white();
-  preset::Shape stone;
-  stone.type = preset::Shape::Type::brilliant;
+  const preset::Shape stone{.type = preset::Shape::Type::brilliant};
   p.scene.objects = {object("stone", stone, "glass", at({0, 0, 0}, {20, 0, 30})),
                      object("mirror", quad(1, 1), "mirror", at({1, 0, 0}, {0, 0, 70})),
                      object("floor", quad(2, 2), "white", at({0, -1, 0}))};
-  preset::Light light;
-  light.position = {0.3, 2, 0.4};
-  p.scene.lights = {light};
+  p.scene.lights = {{.position = {0.3, 2, 0.4}}};
   spectral::settings(p).photons_per_pass = 1 << 16;
   const spectral::EnergyBalance open = spectral::energy_of(render(p));
   preset::Shape walls = box(8, 8, 8);

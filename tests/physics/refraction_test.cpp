@@ -2,26 +2,32 @@
 // Photons through plates and prisms, against Snell's and Fresnel's closed forms.
 #include "optics/dispersion.h"
 #include "optics/fresnel.h"
-#include "spectral/checks/render.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::refraction_test {
+
+/// Glass of this index and a white material, photons through up to 200 surfaces, seen from 5 m above.
+preset::Preset seen_from_above(double n, int photons)
+{
+  preset::Preset p = empty_preset(16);
+  p.scene.materials["glass"] = glass(n);
+  p.scene.materials["white"] = white();
+  p.scene.camera.position = {0, 5, 0};
+  p.scene.camera.up = {0, 0, -1};
+  spectral::settings(p).photons_per_pass = photons;
+  spectral::settings(p).max_surfaces = 200;
+  return p;
+}
 
 // ---- Plate -----------------------------------------------------------------------------------------------------------------
 // A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m that lies in y = 0; a floor below catches what goes through.
 spectral::EnergyBalance through_plate(double theta_deg, double n, int photons)
 {
-  preset::Preset p = empty_preset(16);
-  p.scene.materials["glass"] = glass(n);
-  p.scene.materials["white"] = white();
+  preset::Preset p = seen_from_above(n, photons);
   p.scene.objects = {object("plate", box(40, 1e-3, 40), "glass"), object("floor", quad(400, 400), "white", at({0, -1, 0}))};
   const double s = std::sin(theta_deg * degree), c = std::cos(theta_deg * degree);
   // The pencil's start is 0.1 m from where it meets the plate, so that at 89 degrees it is still narrow there.
   p.scene.lights.push_back(pencil({-0.1 * s, 0.5e-3 + 0.1 * c, 0}, {s, -c, 0}, 0.01));
-  p.scene.camera.position = {0, 5, 0};
-  p.scene.camera.up = {0, 0, -1};
-  spectral::settings(p).photons_per_pass = photons;
-  spectral::settings(p).max_surfaces = 200;
   const spectral::EnergyBalance e = spectral::energy_of(render(p));
   EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);
   EXPECT_EQ(e.missed_w, 0);
@@ -159,15 +165,10 @@ TEST(Prism, NineWavelengthsLandWhereSnellSays)
 // priority, makes two plates, whose intensities combine as T = (1 - R) / (1 + 3 R) (four interfaces, no interference).
 TEST(Nested, OverlappingBoxesOfOneGlassAreOne)
 {
-  preset::Preset p = empty_preset(16);
-  p.scene.materials["glass"] = glass(1.8);
-  p.scene.materials["white"] = white();
+  preset::Preset p = seen_from_above(1.8, 1 << 18);
   p.scene.objects = {object("upper", box(1, 0.1, 1), "glass", at({0, 0.04, 0})),
                      object("lower", box(1, 0.1, 1), "glass", at({0, -0.04, 0})), object("floor", quad(100, 100), "white", at({0, -1, 0}))};
   p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05)};
-  p.scene.camera.position = {0, 5, 0};
-  p.scene.camera.up = {0, 0, -1};
-  spectral::settings(p).photons_per_pass = 1 << 18;
   const spectral::EnergyBalance e = spectral::energy_of(render(p));
   const double r = std::pow(0.8 / 2.8, 2), truth = (1 - r) / (1 + r);
   expect_share("nested: transmittance of overlapping boxes of one glass", e.deposited_w / e.emitted_w, truth, 1 << 18);
@@ -175,18 +176,12 @@ TEST(Nested, OverlappingBoxesOfOneGlassAreOne)
 
 TEST(Nested, AirInsideGlassMakesTwoPlates)
 {
-  preset::Preset p = empty_preset(16);
-  p.scene.materials["glass"] = glass(1.8);
+  preset::Preset p = seen_from_above(1.8, 1 << 18);
   p.scene.materials["air"] = glass(1);
-  p.scene.materials["white"] = white();
   p.scene.objects = {object("block", box(1, 0.3, 1), "glass"), object("bubble", box(0.5, 0.1, 0.5), "air"),
                      object("floor", quad(100, 100), "white", at({0, -1, 0}))};
   p.scene.objects[1].priority = 1;
   p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05)};
-  p.scene.camera.position = {0, 5, 0};
-  p.scene.camera.up = {0, 0, -1};
-  spectral::settings(p).photons_per_pass = 1 << 18;
-  spectral::settings(p).max_surfaces = 200;
   const spectral::EnergyBalance e = spectral::energy_of(render(p));
   const double r = std::pow(0.8 / 2.8, 2), truth = (1 - r) / (1 + 3 * r);
   expect_share("nested: transmittance of a bubble of air in glass", e.deposited_w / e.emitted_w, truth, 1 << 18);
@@ -197,19 +192,13 @@ TEST(Nested, AirInsideGlassMakesTwoPlates)
 // are those of plates in air. Both orders of the objects, because ties are broken by it.
 double standing_on(const preset::Object& below, const char* catcher, bool glass_first)
 {
-  preset::Preset p = empty_preset(16);
-  p.scene.materials["glass"] = glass(1.5);
-  p.scene.materials["white"] = white();
-  p.scene.materials["mirror"].type = preset::Material::Type::mirror;
-  p.scene.materials["mirror"].reflectance.value = 1;
+  preset::Preset p = seen_from_above(1.5, 1 << 17);
+  p.scene.materials["mirror"] = check::mirror(1);
   const preset::Object box_on_top = object("standing", box(1, 1, 1), "glass", at({0, -1.5, 0}));
   p.scene.objects = glass_first ? std::vector{box_on_top, below} : std::vector{below, box_on_top};
   p.scene.objects.push_back(object("catcher", quad(400, 400), "white", std::string(catcher) == "above" ? at({0, 5, 0}) : at({0, -5, 0})));
   p.scene.lights = {pencil({0.1, 1, 0.07}, {0, -1, 0}, 0.05)};
   p.scene.camera.position = {0, 3, 0};
-  p.scene.camera.up = {0, 0, -1};
-  spectral::settings(p).photons_per_pass = 1 << 17;
-  spectral::settings(p).max_surfaces = 200;
   const spectral::EnergyBalance e = spectral::energy_of(render(p));
   EXPECT_EQ(e.lost_w, 0);
   return e.deposited_w / e.emitted_w;
@@ -240,9 +229,7 @@ TEST(TotalReflection, ACubeKeepsWhatIsOutsideItsCones)
   preset::Shape room = box(10, 10, 10);
   room.inwards = true;
   p.scene.objects = {object("cube", box(0.2, 0.2, 0.2), "glass"), object("room", room, "white")};
-  preset::Light light;
-  light.spectrum = line(550);
-  p.scene.lights = {light};
+  p.scene.lights = {{.spectrum = line(550)}};
   constexpr int photons = 1 << 16;
   spectral::settings(p).photons_per_pass = photons;
   spectral::settings(p).max_surfaces = 300;

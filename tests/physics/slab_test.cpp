@@ -2,10 +2,7 @@
 // A plate with parallel faces: light leaves it in the direction it came from, moved aside and weaker, and otherwise as it was.
 // Balls; the critical angle and Brewster's.
 #include "optics/fresnel.h"
-#include "optics/spectrum.h"
 #include "tests/support/closed_form.h"
-#include "tests/support/render.h"
-#include "tests/support/test_kernels.h"
 
 namespace nephroid::slab_test {
 
@@ -227,11 +224,7 @@ TEST(RadianceInGlass, IsDividedByTheSquareOfTheIndexOnTheWayOut)
   preset::Preset p = empty_preset(9);
   p.scene.materials = {{"white", white()}, {"glass", glass(n)}};
   p.scene.objects = {object("block", box(4, 1, 4), "glass"), object("sheet", quad(2, 2), "white", at({0, -0.3, 0}))};
-  preset::Light lamp;
-  lamp.spectrum.illuminant = "E";
-  lamp.position = {0.3, 0.2, 0.1};
-  lamp.power_w = power;
-  p.scene.lights = {lamp};
+  p.scene.lights = {{.spectrum = {.illuminant = "E"}, .power_w = power, .position = {0.3, 0.2, 0.1}}};
   p.scene.camera.position = {0, 2, 0};
   p.scene.camera.target = {0, 0, 0};
   p.scene.camera.up = {0, 0, -1};

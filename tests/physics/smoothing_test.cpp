@@ -4,7 +4,6 @@
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/passes.h"
-#include "tests/support/render.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::smoothing_test {

@@ -2,7 +2,6 @@
 // Newton's prism over a receiver that its light grazes: splats stretched along the wavelength make one rainbow of 401 lines, each colour
 // where Snell puts it, and no light is made or lost at the receiver's edge.
 #include "optics/fresnel.h"
-#include "spectral/checks/render.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::spectral_differentials_test {
@@ -288,10 +287,6 @@ TEST(SpectralDifferentials, AreLeftOutWhereNothingDisperses)
 {
   Newton newton;
   spectral::settings(newton.preset()).differentials = true;
-  const auto plan_of = [](const preset::Preset& preset) {
-    const scene::Scene scene = scene::load_scene(preset);
-    return spectral::make_plan(preset, scene, scene::build_bvh(scene.geometry));
-  };
   EXPECT_EQ(plan_of(newton.preset()).defines.at("NEPHROID_DIFFERENTIALS"), "1");
   newton.preset().scene.materials["flint"] = glass(1.7);
   EXPECT_EQ(plan_of(newton.preset()).defines.at("NEPHROID_DIFFERENTIALS"), "0");

@@ -187,11 +187,7 @@ preset::Preset floor_preset()
   p.scene.materials["orange"].reflectance.patch = "orange";
   p.scene.materials["nothing"] = glass(1);
   p.scene.objects.push_back(object("floor", quad(10, 10), "orange"));
-  preset::Light light;
-  light.spectrum.illuminant = "A";
-  light.position = {0.1, 1, -0.2};
-  light.power_w = 5;
-  p.scene.lights.push_back(light);
+  p.scene.lights = {{.spectrum = {.illuminant = "A"}, .power_w = 5, .position = {0.1, 1, -0.2}}};
   p.white = 0.25;
   spectral::settings(p).relight = true;
   spectral::settings(p).direct = true;

@@ -18,15 +18,13 @@ const Screen receiver_view{{0, -0.75, 0}, receiver_side, groups* group};
 
 preset::Light area_light(const preset::Vec3& position, const preset::Vec3& direction, double side)
 {
-  preset::Light light;
-  light.type = preset::Light::Type::area;
-  light.spectrum = line(550);
-  light.position = position;
-  light.direction = direction;
-  light.up = {direction[1], direction[2], direction[0]};
-  light.size = {side, side};
-  light.power_w = radiance * M_PI * side * side;
-  return light;
+  return {.type = preset::Light::Type::area,
+          .spectrum = line(550),
+          .power_w = radiance * M_PI * side * side,
+          .position = position,
+          .direction = direction,
+          .size = {side, side},
+          .up = {direction[1], direction[2], direction[0]}};
 }
 
 preset::Preset furnace(const std::vector<preset::Object>& things)
@@ -40,8 +38,7 @@ preset::Preset furnace(const std::vector<preset::Object>& things)
   p.scene.materials["flint"].dispersion.type = preset::Dispersion::Type::file;
   p.scene.materials["flint"].dispersion.file = "N-SF66.yml";
   p.scene.materials["flint"].absorption = false;
-  p.scene.materials["mirror"].type = preset::Material::Type::mirror;
-  p.scene.materials["mirror"].reflectance.value = 1;
+  p.scene.materials["mirror"] = check::mirror(1);
   p.scene.objects = things;
   p.scene.objects.push_back(object("receiver", quad(receiver_side, receiver_side), "receiver", at(receiver_view.centre)));
   for (int axis = 0; axis < 3; ++axis)

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace nephroid::test {
 

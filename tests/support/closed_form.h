@@ -2,9 +2,7 @@
 // Comparing what was rendered with a closed form: each comparison leaves a row (figure, truth, tolerance) among the test's properties, from
 // which the table of closed forms in the docs is made; and the noise of photons, which says how far off a picture may be.
 #pragma once
-#include "optics/colour.h"
 #include "optics/spectrum.h"
-#include "scene/scene.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
 #include "tracing/targets.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme settings of clusters, maps and lights compared by the colour of one caustic: which way it is estimated must not matter.
 #pragma once
-#include "spectral/energy.h"
 #include "tests/support/extremes.h"
 #include "tests/support/passes.h"
 

@@ -2,14 +2,8 @@
 // Extreme cases as rows of a table: what is extreme, what came out, what is right and how that is known. Where the environment variable
 // NEPHROID_EXTREMES_TABLE names a file, every case appends its row to it: docs/notebook/extremes.md is made of these.
 #pragma once
-#include "preset/preset.h"
 #include "preset/read.h"
-#include "scene/scene.h"
-#include "spectral/energy.h"
-#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
-#include "tests/support/presets.h"
-#include "tests/support/render.h"
 
 namespace nephroid::test {
 

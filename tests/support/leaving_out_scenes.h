@@ -2,8 +2,6 @@
 // For each thing that engine 1 can leave out, a small scene that does not need it. Tests show that its picture stays the same without,
 // the bench how much time that saves.
 #pragma once
-#include "preset/preset.h"
-#include "spectral/settings.h"
 #include "tests/support/presets.h"
 #include "tests/support/standard.h"
 #include "tracing/scene_tables.h"

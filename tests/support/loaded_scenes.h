@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the tests of scene loading start from and ask of a loaded scene.
 #pragma once
-#include "preset/preset.h"
-#include "scene/mesh.h"
 #include "scene/scene.h"
 #include "tests/support/test.h"
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What engine 1 works out of a preset on the host.
 #pragma once
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/effort/importance.h"
 #include "spectral/engine.h"
-#include "spectral/tables/run_tables.h"
 #include "tests/support/presets.h"
 #include "tests/support/test.h"
 

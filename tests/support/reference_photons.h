@@ -3,7 +3,6 @@
 // random numbers of its own. Slow and plain: what kernels/spectral/photons.cl is judged by.
 #pragma once
 #include "optics/fresnel.h"
-#include "scene/scene.h"
 #include "spectral/tables/run_tables.h"
 #include "tests/support/ellipsoids.h"
 #include "tests/support/tracer.h"

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs engine 1 on a preset built in a test and hands back what it made.
 #pragma once
-#include "compute/compute.h"
-#include "job/job.h"
-#include "plan/plan.h"
-#include "preset/preset.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/checks/render.h"
 #include "spectral/engine.h"
-#include "tests/support/presets.h"
+#include "tests/support/plans.h"
 #include "tests/support/test_kernels.h"
 
 namespace nephroid::test {

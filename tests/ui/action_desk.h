@@ -2,7 +2,6 @@
 // A window in which every action can be possible, and three ways to press one: the command palette, its keys, its menu.
 #pragma once
 #include "scenes.h"
-#include "ui/widgets/action.h"
 #include "window_fixture.h"
 
 namespace nephroid::test {

@@ -2,10 +2,6 @@
 // What each action of the table shall do, by its name: what has to be there before, and what is so afterwards and was not before.
 #pragma once
 #include "action_desk.h"
-#include "base/bytes.h"
-#include "engine/engine.h"
-#include "preset/read.h"
-#include "ui/shell/panels.h"
 
 #include <imgui_internal.h>
 

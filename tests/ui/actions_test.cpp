@@ -2,12 +2,7 @@
 // Every action of the table: what it does, which is in action_effects.h, and the ways to it: found by its name in the command palette, by
 // its keys, in its menu, on the toolbar. And docs/keys.md, which says what the table does: with the folder docs in NEPHROID_PICTURES it is
 // written there.
-#include "action_desk.h"
 #include "action_effects.h"
-#include "ui/shell/menus.h"
-#include "ui/widgets/action.h"
-
-#include <imgui.h>
 
 namespace nephroid::ui::actions_test {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bookmarks of cameras in the whole window: made, gone to, renamed and deleted by keys and mouse.
-#include "ui/state/selection.h"
 
 #include "window_fixture.h"
 

@@ -5,7 +5,6 @@
 #include "tests/support/loaded_scenes.h"
 #include "ui/view/placement.h"
 #include "ui/view/sight.h"
-
 #include <glm/glm.hpp>
 
 namespace nephroid::ui::camera_moves_test {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The window's runs on a real device: with kernels from a folder, where a changed one is built and shown and a broken one is a message; and
 // the scenes to begin with, each of which has a picture at once.
-#include "engine/engine.h"
 #include "fake_job.h"
 #include "ui/state/device_runs.h"
 
@@ -26,10 +25,7 @@ protected:
 /// Brightness of a snapshot's picture; 0 where there is none.
 double sum(const std::shared_ptr<const job::Snapshot>& snapshot)
 {
-  double all = 0;
-  if (snapshot)
-    for (const float value : snapshot->picture->rgb) all += value;
-  return all;
+  return snapshot ? std::accumulate(snapshot->picture->rgb.begin(), snapshot->picture->rgb.end(), 0.0) : 0;
 }
 
 TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
@@ -112,13 +108,7 @@ TEST(NewScenesTest, EachIsDrawn)
     DeviceRuns runs({});
     Workbench workbench(runs);
     workbench.apply({command::New{engine->introduction.new_scene.preset}});
-    const auto brightness = [&] {
-      double all = 0;
-      if (workbench.run().snapshot())
-        for (const float value : workbench.run().snapshot()->picture->rgb) all += value;
-      return all;
-    };
-    EXPECT_TRUE(test::eventually([&] { workbench.update(); }, [&] { return brightness() > 0; })) << name_of(*engine);
+    EXPECT_TRUE(test::eventually([&] { workbench.update(); }, [&] { return sum(workbench.run().snapshot()) > 0; })) << name_of(*engine);
     EXPECT_TRUE(workbench.messages().empty()) << workbench.messages().front().line;
   }
 }

@@ -2,12 +2,6 @@
 // What can be done to a dispersion: places snap to a grid, a glass becomes control points, files are loaded or refused, also by the panel
 // "Dispersion".
 #include "dispersion_fixture.h"
-#include "optics/dispersion.h"
-#include "preset/read.h"
-#include "spectral/clusters/clusters.h"
-#include "ui/spectral/dispersion/model.h"
-#include "ui/spectral/dispersion/panel.h"
-#include "ui/state/selection.h"
 
 namespace nephroid::ui::dispersion_edits_test {
 

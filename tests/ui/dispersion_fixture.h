@@ -2,8 +2,6 @@
 // The panel "Dispersion" in a window without a display: presets with glass, the mouse on its points and widgets.
 #pragma once
 #include "optics/dispersion.h"
-#include "preset/read.h"
-#include "spectral/clusters/clusters.h"
 #include "window_fixture.h"
 
 namespace nephroid::test {

@@ -2,7 +2,6 @@
 // The panel "Environment" under an injected mouse: the map is turned, the number of lights slid, a method chosen; what a run says of the
 // lights; presets without an environment, or without one that can be read.
 #include "environment/settings.h"
-#include "image/image.h"
 #include "tests/environment/maps.h"
 #include "ui/environment/panel.h"
 #include "window_fixture.h"

@@ -2,10 +2,6 @@
 // A job without a device for tests of the window: its picture is one colour that tells which camera it was made for.
 #pragma once
 #include "engine/engine.h"
-#include "job/job.h"
-#include "measure/measured_job.h"
-#include "plan/plan.h"
-#include "preset/preset.h"
 #include "spectral/energy.h"
 #include "tests/support/test.h"
 #include "ui/state/workbench.h"

@@ -3,7 +3,6 @@
 // object before, turned.
 #include "ui/view/gizmo_edits.h"
 
-#include "scene/scene.h"
 #include "scenes.h"
 #include "tests/support/loaded_scenes.h"
 #include "ui/view/gizmo.h"

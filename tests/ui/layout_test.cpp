@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layouts of panels by engine: kept, restored, reset; panels closed and shown; the command palette.
-#include "ui/shell/panels.h"
 #include "window_fixture.h"
 
 #include <imgui_internal.h>

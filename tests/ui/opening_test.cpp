@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opening files in the window: what it asks before unsaved changes go, what it says about files that are no preset. What becomes of
 // pictures and meshes that are dropped on it, and that nothing does of what is none.
-#include "fake_job.h"
 #include "inverse/settings.h"
 #include "tests/support/loaded_scenes.h"
 #include "window_fixture.h"

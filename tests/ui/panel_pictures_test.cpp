@@ -5,8 +5,6 @@
 #include "optics/dispersion.h"
 #include "real_window.h"
 #include "scenes.h"
-#include "ui/spectral/dispersion/panel.h"
-#include "ui/spectral/spectra/panel.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::panel_pictures_test {

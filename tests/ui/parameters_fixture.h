@@ -2,8 +2,6 @@
 // The panel "Parameters" in a window without a display, so tall that every row is in sight: fields are found by the search and edited by
 // mouse and keys.
 #pragma once
-#include "preset/read.h"
-#include "ui/parameters/panel.h"
 #include "window_fixture.h"
 
 namespace nephroid::test {

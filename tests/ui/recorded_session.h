@@ -4,9 +4,7 @@
 // there, and in NEPHROID_SHOTS they are kept whole.
 #pragma once
 #include "real_window.h"
-#include "tests/support/process_state.h"
 #include "ui/presets/panel.h"
-#include "ui/state/session.h"
 #include "window_fixture.h"
 
 #include <imgui_internal.h>

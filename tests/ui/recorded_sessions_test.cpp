@@ -3,11 +3,9 @@
 // or no ImageMagick.
 #include "environment/settings.h"
 #include "recorded_session.h"
-#include "scene/mesh.h"
 #include "scenes.h"
 #include "ui/environment/panel.h"
 #include "ui/inverse/annealing/panel.h"
-#include "ui/spectral/dispersion/model.h"
 
 namespace nephroid::ui::recorded_sessions_test {
 

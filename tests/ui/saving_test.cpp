@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What leaves the window and what comes in from nothing: the command line on the clipboard, saving with the parent kept, new scenes, a glTF
 // file that is dropped.
-#include "engine/engine.h"
 #include "preset/differences.h"
-#include "preset/read.h"
-#include "ui/state/files.h"
 #include "window_fixture.h"
-
-#include <nlohmann/json.hpp>
 
 namespace nephroid::ui::saving_test {
 

@@ -4,9 +4,6 @@
 #pragma once
 #include "fake_job.h"
 #include "inverse/engine.h"
-#include "run/run.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "ui/shell/panels.h"
 #include "ui/view/sight.h"
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits of a light's spectrum, and what the panel "Spectra" makes of a preset: without a window.
-#include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/materials.h"
 #include "scenes.h"

@@ -10,9 +10,6 @@
 #include "ui/spectral/spectra/panel.h"
 #include "ui/state/session_keeper.h"
 #include "ui/view/panel.h"
-#include "ui/widgets/theme.h"
-
-#include <imgui.h>
 
 namespace nephroid::test {
 

@@ -2,9 +2,7 @@
 // The real program in a real window on a virtual display: what it shows against what `nephroid run` writes, real X events, and what it says
 // where there is no display. A window that is killed in the middle of edits comes back with them: what its session had kept is there;
 // NEPHROID_KILLS=20 kills twenty. Skipped where there is no Xvfb or no xdotool.
-#include "fake_job.h"
 #include "real_window.h"
-#include "ui/state/session.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::window_test {

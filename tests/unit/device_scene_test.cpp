@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tables that engine 1 hands to its kernels: targets that enclose, sums over wavelength, cdfs exact to the bit, which wavelengths glass
 // and mirrors take alike; and the plan's reasons.
-#include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "spectral/clusters/clusters.h"
 #include "tests/support/plans.h"
 #include "tracing/scales.h"
 #include "tracing/targets.h"
-#include "tracing/wavelength_tables.h"
 
 namespace nephroid::device_scene_test {
 

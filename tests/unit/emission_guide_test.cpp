@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where photons and samples go: what is learned about where photons matter, the cells that a film of layers has, the pixels in which a path
 // may meet glass.
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/effort/emitters.h"
 #include "spectral/relight/layer_film.h"
 #include "spectral/relight/layer_light.h"

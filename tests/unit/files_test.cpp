@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files are read whole, written whole or not at all, and found where a preset's reader says they are; nearest names.
-#include "base/bytes.h"
 #include "base/hashed_bytes.h"
 #include "base/interrupts.h"
 #include "base/nearest.h"
@@ -8,7 +7,6 @@
 
 #include <sys/mount.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 namespace nephroid::files_test {
 

@@ -6,12 +6,9 @@
 #include "preset/read.h"
 #include "run/import/gltf_scene.h"
 #include "run/import/import.h"
-#include "scene/mesh.h"
 #include "scene/scene.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
-
-#include <nlohmann/json.hpp>
 
 namespace nephroid::gltf_import_test {
 

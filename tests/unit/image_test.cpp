@@ -6,7 +6,6 @@
 #include "tests/support/test.h"
 
 #include <sys/mount.h>
-#include <unistd.h>
 
 namespace nephroid::image_test {
 

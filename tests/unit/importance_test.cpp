@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The importance of wavelengths (4.15) in scenes whose surroundings have a closed form: one material all round, and rectangles whose
 // solid angles are known.
-#include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "tests/support/plans.h"
 

@@ -5,11 +5,8 @@
 #include "plan/plan.h"
 #include "preset/read.h"
 #include "run/run.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
-#include "tests/support/presets.h"
 #include "tests/support/process_state.h"
 
 #include <nlohmann/json.hpp>

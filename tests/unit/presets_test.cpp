@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reading presets: defaults, shorthands, parents, overrides, sweeps, the names of shipped presets. What is written reads back equal.
 // Which edits are another light on the same scene, and which no run takes on.
-#include "engine/engine.h"
-#include "preset/preset.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"
 #include "spectral/engine.h"
-#include "spectral/settings.h"
 #include "tests/support/presets.h"
 #include "tests/support/random_preset.h"
 

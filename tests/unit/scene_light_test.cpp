@@ -2,8 +2,6 @@
 // What a loaded scene has on the 401 wavelengths: lights, materials of every kind, environments and what is refused of their pictures, and
 // the tables that photons are drawn by from an environment.
 #include "image/image.h"
-#include "optics/colour.h"
-#include "scene/environment.h"
 #include "scene/materials.h"
 #include "tests/support/loaded_scenes.h"
 #include "tracing/scene_tables.h"

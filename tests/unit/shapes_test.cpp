@@ -10,8 +10,6 @@ namespace nephroid::scene::shapes_test {
 using Type = preset::Shape::Type;
 constexpr double pi = std::numbers::pi;
 
-preset::Shape shape(Type type) { return {.type = type}; }
-
 glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& t)
 {
   const glm::dvec3 a = mesh.positions[t.x];
@@ -42,9 +40,7 @@ void expect_sound(const Mesh& mesh)
 
 TEST(Shapes, QuadFacesUp)
 {
-  preset::Shape quad = shape(Type::quad);
-  quad.size = {2, 99, 3};
-  const Mesh mesh = make_shape(quad);
+  const Mesh mesh = make_shape({.type = Type::quad, .size = {2, 99, 3}});
   EXPECT_NEAR(area(mesh), 6, 1e-6);
   for (const glm::uvec3& t : mesh.triangles) EXPECT_GT(area_vector(mesh, t).y, 0);
   EXPECT_EQ(inspect(mesh).open_edges, 4u);
@@ -53,9 +49,7 @@ TEST(Shapes, QuadFacesUp)
 TEST(Shapes, BoxAndPlate)
 {
   for (Type type : {Type::box, Type::plate}) {
-    preset::Shape box = shape(type);
-    box.size = {2, 3, 4};
-    const Mesh mesh = make_shape(box);
+    const Mesh mesh = make_shape({.type = type, .size = {2, 3, 4}});
     expect_sound(mesh);
     EXPECT_EQ(mesh.triangles.size(), 12u);
     EXPECT_NEAR(inspect(mesh).signed_volume, 24, 1e-9);
@@ -68,8 +62,7 @@ TEST(Shapes, BoxAndPlate)
 
 TEST(Shapes, ASphereIsOne)
 {
-  preset::Shape sphere = shape(Type::sphere);
-  sphere.radius = 2;
+  preset::Shape sphere{.type = Type::sphere, .radius = 2};
   const Mesh mesh = make_shape(sphere);
   EXPECT_TRUE(mesh.triangles.empty());
   ASSERT_EQ(mesh.ellipsoids.size(), 1u);
@@ -84,11 +77,7 @@ TEST(Shapes, ASphereIsOne)
 // The inscribed prism over a regular N-gon, exactly: volume N/2 sin(2 pi / N) r^2 h; area twice the base plus N sides.
 TEST(Shapes, CylinderIsTheInscribedPrism)
 {
-  preset::Shape cylinder = shape(Type::cylinder);
-  cylinder.radius = 0.5;
-  cylinder.height = 3;
-  cylinder.segments = 100;
-  const Mesh mesh = make_shape(cylinder);
+  const Mesh mesh = make_shape({.type = Type::cylinder, .radius = 0.5, .height = 3, .segments = 100});
   expect_sound(mesh);
   const double base = 50 * std::sin(2 * pi / 100) * 0.25;
   EXPECT_NEAR(inspect(mesh).signed_volume, base * 3, 1e-6);
@@ -99,11 +88,7 @@ TEST(Shapes, CylinderIsTheInscribedPrism)
 
 TEST(Shapes, PrismHasItsApexAtPlusZ)
 {
-  preset::Shape prism = shape(Type::prism);
-  prism.apex_deg = 40;
-  prism.side = 2;
-  prism.height = 5;
-  const Mesh mesh = make_shape(prism);
+  const Mesh mesh = make_shape({.type = Type::prism, .height = 5, .apex_deg = 40, .side = 2});
   expect_sound(mesh);
   EXPECT_EQ(mesh.triangles.size(), 8u);
   EXPECT_NEAR(inspect(mesh).signed_volume, 0.5 * 4 * std::sin(40 * pi / 180) * 5, 1e-5);
@@ -131,30 +116,25 @@ std::map<std::tuple<float, float, float>, std::vector<glm::uvec3>> facets(const 
 
 TEST(Shapes, BrilliantHas57FacetsAndAGirdle)
 {
-  preset::Shape stone = shape(Type::brilliant);
-  stone.radius = 3;
-  const Mesh mesh = make_shape(stone);
+  const Mesh mesh = make_shape({.type = Type::brilliant, .radius = 3});
   expect_sound(mesh);
   EXPECT_GT(inspect(mesh).signed_volume, 0);
   const auto planes = facets(mesh);
   EXPECT_EQ(planes.size(), 57u + 16u);
-  int table = 0, bezels = 0, mains = 0, girdle = 0;
-  for (const auto& [normal, triangles] : planes) {
-    const double tilt = std::acos(std::clamp(double(std::get<1>(normal)), -1.0, 1.0)) * 180 / pi; // from +y
-    table += tilt < 1e-3;
-    bezels += std::abs(tilt - 34.5) < 1e-3;
-    mains += std::abs(tilt - (180 - 40.75)) < 1e-3;
-    girdle += std::abs(tilt - 90) < 1e-3;
-  }
-  EXPECT_EQ(table, 1);
-  EXPECT_EQ(bezels, 8);
-  EXPECT_EQ(mains, 8);
-  EXPECT_EQ(girdle, 16);
+  const auto tilted = [&](double degrees) { // from +y
+    return std::count_if(planes.begin(), planes.end(), [&](const auto& plane) {
+      return std::abs(std::acos(std::clamp(double(std::get<1>(plane.first)), -1.0, 1.0)) * 180 / pi - degrees) < 1e-3;
+    });
+  };
+  EXPECT_EQ(tilted(0), 1) << "table";
+  EXPECT_EQ(tilted(34.5), 8) << "bezels";
+  EXPECT_EQ(tilted(180 - 40.75), 8) << "mains";
+  EXPECT_EQ(tilted(90), 16) << "girdle";
 }
 
 TEST(Shapes, BrilliantIsConvexPlanarAndEightfold)
 {
-  const Mesh mesh = make_shape(shape(Type::brilliant)); // girdle radius 0.5
+  const Mesh mesh = make_shape({.type = Type::brilliant}); // girdle radius 0.5
   for (const auto& [normal, triangles] : facets(mesh)) {
     const glm::dvec3 n(std::get<0>(normal), std::get<1>(normal), std::get<2>(normal));
     const double plane = glm::dot(n, glm::dvec3(mesh.positions[triangles[0].x]));
@@ -179,7 +159,7 @@ TEST(Shapes, BrilliantIsConvexPlanarAndEightfold)
 // tan 40.75 / 2 = 43.1 % of it; the girdle adds 3 %.
 TEST(Shapes, BrilliantProportions)
 {
-  const Mesh mesh = make_shape(shape(Type::brilliant)); // diameter 1
+  const Mesh mesh = make_shape({.type = Type::brilliant}); // diameter 1
   float low = 0, high = 0, widest = 0, table = 0;
   for (const glm::vec3& p : mesh.positions) {
     low = std::min(low, p.y);
@@ -197,7 +177,7 @@ TEST(Shapes, BrilliantProportions)
 TEST(Shapes, InwardsTurnsEverythingRound)
 {
   for (Type type : {Type::box, Type::cylinder, Type::prism, Type::plate, Type::brilliant}) {
-    preset::Shape room = shape(type);
+    preset::Shape room{.type = type};
     const double volume = inspect(make_shape(room)).signed_volume;
     room.inwards = true;
     const Mesh mesh = make_shape(room);
@@ -210,9 +190,7 @@ TEST(Shapes, InwardsTurnsEverythingRound)
 TEST(Shapes, CoarsestCylindersAreClosed)
 {
   for (int segments : {3, 4, 5}) {
-    preset::Shape coarse = shape(Type::cylinder);
-    coarse.segments = segments;
-    const MeshReport report = inspect(make_shape(coarse));
+    const MeshReport report = inspect(make_shape({.type = Type::cylinder, .segments = segments}));
     EXPECT_TRUE(report.closed());
     EXPECT_GT(report.signed_volume, 0);
   }

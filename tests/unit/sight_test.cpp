@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera's frame and pixel rays by hand, the corners of objects and the box about them, host rays through the tree against every
 // triangle on its own, and where a look through a pixel ends, against Snell's law by hand.
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/clusters/clusters.h"
 #include "spectral/sight.h"
 #include "tests/support/loaded_scenes.h"

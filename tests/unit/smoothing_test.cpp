@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smoothed caustics on a floor that fills the lower part of the picture and a wall that fills the upper, from made pictures.
-#include "scene/bvh.h"
 #include "spectral/smoothing.h"
 #include "tests/support/loaded_scenes.h"
 

@@ -2,7 +2,6 @@
 // Every order of three commands while a job works at an adoption: the end is what the newest of them say, and a picture is of the preset
 // that it counts as.
 #include "job/worker.h"
-#include "preset/preset.h"
 #include "tests/support/test.h"
 
 #include <future>

@@ -76,15 +76,22 @@ bool tells(const Worker& worker, std::array<int, 2> pixel)
   return eventually([&] { return worker.spectrum() && worker.spectrum()->pixel == pixel; });
 }
 
+/// How the job that is made ends.
+template <class Make>
+job::State end_of(Worker& worker, Make make)
+{
+  worker.start(make);
+  worker.wait();
+  return worker.status().state;
+}
+
 TEST(Worker, IsIdleAtFirst)
 {
   Worker worker;
   EXPECT_EQ(worker.status().state, job::State::idle);
   EXPECT_EQ(worker.snapshot(), nullptr);
   worker.cancel(); // of nothing: must not cancel what is started later
-  worker.start(counting(3));
-  worker.wait();
-  EXPECT_EQ(worker.status().state, job::State::finished);
+  EXPECT_EQ(end_of(worker, counting(3)), job::State::finished);
 }
 
 TEST(Worker, FinishesWithTheLastSnapshot)
@@ -255,19 +262,12 @@ public:
 TEST(Worker, ErrorsBecomeAStateAndTheWorkerGoesOn)
 {
   Worker worker;
-  worker.start([] { return std::make_unique<FailingJob>(); });
-  worker.wait();
-  EXPECT_EQ(worker.status().state, job::State::failed);
+  EXPECT_EQ(end_of(worker, [] { return std::make_unique<FailingJob>(); }), job::State::failed);
   EXPECT_EQ(worker.status().error->line(), "trace.cl: out of registers");
-  worker.start([]() -> std::unique_ptr<Job> { throw std::bad_alloc(); });
-  worker.wait();
+  EXPECT_EQ(end_of(worker, []() -> std::unique_ptr<Job> { throw std::bad_alloc(); }), job::State::failed);
   EXPECT_EQ(worker.status().error->line(), "out of memory");
-  worker.start([]() -> std::unique_ptr<Job> { return nullptr; }); // a maker that found nothing to do
-  worker.wait();
-  EXPECT_EQ(worker.status().state, job::State::cancelled);
-  worker.start(counting(1));
-  worker.wait();
-  EXPECT_EQ(worker.status().state, job::State::finished);
+  EXPECT_EQ(end_of(worker, []() -> std::unique_ptr<Job> { return nullptr; }), job::State::cancelled); // there is nothing to do
+  EXPECT_EQ(end_of(worker, counting(1)), job::State::finished);
 }
 
 TEST(Worker, ReadersNeverWaitForAStep)
@@ -328,9 +328,7 @@ TEST(Worker, ManyReadersAndCommandsAtOnce)
     });
   std::this_thread::sleep_for(200ms);
   threads.clear();
-  worker.start(counting(2));
-  worker.wait();
-  EXPECT_EQ(worker.status().state, job::State::finished);
+  EXPECT_EQ(end_of(worker, counting(2)), job::State::finished);
 }
 
 TEST(Worker, TellsTheSpectrumOfThePixelThatIsWatched)
