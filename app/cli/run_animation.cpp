@@ -3,8 +3,8 @@
 #include "base/json_output.h"
 #include "cli/numbers.h"
 #include "cli/run_target.h"
-#include "preset/animation.h"
 #include "preset/origins.h"
+#include "preset/read.h"
 #include "run/animation.h"
 
 #include <fmt/format.h>

@@ -8,7 +8,7 @@
 #include "engine/engine.h"
 #include "run/animation.h"
 #include "run/content.h"
-#include "run/reference.h"
+#include "run/run.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -11,6 +11,10 @@ namespace CLI {
 class App;
 }
 
+namespace nephroid::compute {
+struct DeviceInfo;
+}
+
 namespace nephroid::cli {
 
 struct Example {
@@ -53,5 +57,40 @@ private:
   CLI::App& app_;
   const char* group_ = nullptr;
 };
+
+/// What `nephroid [FILE...]` does. Both functions are empty in a build without the window.
+struct Window {
+  std::function<void(CLI::App& program)> add_options;
+  std::function<int(const std::vector<std::string>& files)> open; ///< returns the exit code
+};
+
+/// Parses and runs one command. Returns the exit code; every error is one line on standard error.
+int run_command_line(int argc, const char* const* argv, const Window& window);
+
+/// The verbs: one file a verb, each adding its subcommand here; those that only list what there is are in lists.cpp. A verb's callback does
+/// the work and throws Error; it sets the exit code where that is not 0. Results go to standard output, everything else to standard error.
+/// A verb that ends in order on Ctrl-C makes an Interrupts (base/interrupts.h).
+struct Session {
+  int exit_code = 0;
+};
+
+void add_run(CLI::App& program, Session& session);
+void add_plan(CLI::App& program, Session& session);
+void add_dispersion(CLI::App& program, Session& session);
+void add_clusters(CLI::App& program, Session& session);
+void add_importance(CLI::App& program, Session& session);
+void add_segment(CLI::App& program, Session& session);
+void add_report(CLI::App& program, Session& session);
+void add_compare(CLI::App& program, Session& session);
+void add_import(CLI::App& program, Session& session);
+void add_presets(CLI::App& program, Session& session);
+void add_devices(CLI::App& program, Session& session);
+void add_check(CLI::App& program, Session& session);
+void add_manual(CLI::App& program, Session& session);
+void add_schema(CLI::App& program, Session& session);
+void add_version(CLI::App& program, Session& session);
+
+/// "0  NAME  (cpu, 2 compute units, 8.1 GB, PLATFORM DRIVER, no fp64)"
+std::string device_line(const compute::DeviceInfo& device);
 
 } // namespace nephroid::cli

@@ -4,7 +4,7 @@
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/run_files.h"
-#include "preset/animation.h"
+#include "preset/read.h"
 #include "run/content.h"
 
 #include <fmt/format.h>

@@ -13,6 +13,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <functional>
+#include <stop_token>
+
 namespace nephroid::run {
 
 /// A loaded scene with its tree: what stays the same while only the camera, the light or the engine's settings change.
@@ -115,5 +118,18 @@ void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepa
 /// Loads it into a job that was just made. False where there is none. Throws bad_input where it is bound to something else, which it
 /// names, or is cut.
 bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);
+
+/// Null where the preset has none, and where it is a recipe that is not in the cache or damaged there. Reads the mask of preset.measure
+/// too. Throws bad_input where a file cannot be read or has another size than the run's picture.
+std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context);
+
+/// How making one goes on: 0..1, and the seconds of work so far.
+using ReferenceProgress = std::function<void(double fraction, double seconds)>;
+
+/// Renders the recipe with both of its seeds and puts their mean into the cache. Throws failed where it cannot be made: memory, a time
+/// above reference.seconds (known after the first passes), a cache that cannot be written to; interrupted where `stop` asks for it.
+/// Only for presets whose reference is a recipe.
+std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepared, const compute::Context& context,
+                                                         const std::stop_token& stop, const ReferenceProgress& progress);
 
 } // namespace nephroid::run

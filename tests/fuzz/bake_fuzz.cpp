@@ -2,7 +2,6 @@
 // Bakes from the folder of caches: the input is a file but for the hash at its end; its key and version are put right.
 #include "base/build_info.h"
 #include "base/files.h"
-#include "base/hash.h"
 #include "base/hashed_bytes.h"
 #include "environment/bake/bake.h"
 #include "tests/fuzz/harness.h"

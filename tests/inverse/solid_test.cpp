@@ -3,7 +3,6 @@
 #include "image/image.h"
 #include "inverse/bending.h"
 #include "inverse/facets/files.h"
-#include "inverse/facets/heights.h"
 #include "inverse/facets/solid.h"
 #include "tests/inverse/sound.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The slopes of all facets at once, downhill.
 #pragma once
-#include "base/state.h"
+#include "base/bytes.h"
 #include "inverse/layout.h"
 
 namespace nephroid::inverse {

@@ -3,7 +3,7 @@
 // potential. So it is the one way that a smooth surface can bend light (Schwartzburg et al. 2014, "High-contrast computational caustic
 // design").
 #pragma once
-#include "base/state.h"
+#include "base/bytes.h"
 #include "inverse/poisson.h"
 
 namespace nephroid::inverse {
