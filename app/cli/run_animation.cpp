@@ -5,7 +5,7 @@
 #include "cli/run_target.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "run/animation.h"
+#include "run/run.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

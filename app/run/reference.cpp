@@ -12,7 +12,6 @@
 #include "measure/read_picture.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"
-#include "run/content.h"
 
 #include <fmt/format.h>
 
