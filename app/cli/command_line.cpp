@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/nearest.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/counted.h"
 #include "base/json_output.h"
-#include "cli/numbers.h"
 #include "cli/run_target.h"
+#include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "run/run.h"
