@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/run_files.h"
