@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program's entry: gives the command line to cli/, and the window's options to ui/ where the build has a window.
-#include "cli/command_line.h"
 
 #ifdef NEPHROID_UI
 #include "cli/verb.h"

@@ -3,12 +3,20 @@
 // the same hash.
 #pragma once
 #include "base/bytes.h"
-#include "base/hash.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <string_view>
 
 namespace nephroid {
+
+/// FNV-1a: enough to tell contents apart and to notice damage; not against forgery. `hash` continues an earlier one.
+inline std::uint64_t hash_of(std::string_view bytes, std::uint64_t hash = 0xcbf29ce484222325u)
+{
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
+  return hash;
+}
 
 /// Eight bytes at a time: films and bakes have gigabytes. Tells contents apart and notices damage, not forgery.
 class PieceHash {

@@ -4,7 +4,6 @@
 #include "base/interrupts.h"
 #include "base/json_output.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 #include "engine/engine.h"
 
 #include <fmt/format.h>

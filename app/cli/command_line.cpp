@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/command_line.h"
-
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/nearest.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 #include "engine/engine.h"
 
 #include <CLI/CLI.hpp>

@@ -3,7 +3,6 @@
 #include "base/files.h"
 #include "base/json_output.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 #include "image/image.h"
 #include "measure/difference.h"
 #include "measure/read_picture.h"

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/json_output.h"
 #include "cli/dispersion_input.h"
-#include "cli/verbs.h"
+#include "cli/verb.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,6 @@
 #include "run/import/import.h"
 #include "base/files.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 
 #include <fmt/format.h>
 

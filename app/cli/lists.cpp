@@ -4,7 +4,6 @@
 #include "base/counted.h"
 #include "base/json_output.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 #include "compute/compute.h"
 #include "preset/read.h"
 

@@ -2,7 +2,6 @@
 // `nephroid manual`: the man page, as roff, from the texts that --help prints. The build writes it to share/man/man1/nephroid.1.
 #include "base/build_info.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

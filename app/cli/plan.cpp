@@ -2,7 +2,6 @@
 // `nephroid plan`: what a preset would run, what is left out and why, and the memory it takes. Renders nothing.
 #include "plan/plan.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "run/run.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How a run shows where it is: one live line on a terminal, a line every few seconds elsewhere, JSON lines with --json.
 #pragma once
-#include "job/pace.h"
+#include "job/job.h"
 
 #include <chrono>
 

@@ -4,7 +4,6 @@
 #include "base/interrupts.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 

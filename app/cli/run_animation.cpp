@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/counted.h"
 #include "base/json_output.h"
-#include "cli/numbers.h"
 #include "cli/run_target.h"
-#include "preset/animation.h"
+#include "cli/verb.h"
 #include "preset/origins.h"
-#include "run/animation.h"
+#include "preset/read.h"
+#include "run/run.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

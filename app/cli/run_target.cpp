@@ -6,9 +6,7 @@
 #include "base/json_output.h"
 #include "cli/progress.h"
 #include "engine/engine.h"
-#include "run/animation.h"
-#include "run/content.h"
-#include "run/reference.h"
+#include "run/run.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/verb.h"
 
-#include "cli/numbers.h"
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 

@@ -2,13 +2,24 @@
 // A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp and manual.cpp only: each
 // file that includes it takes seconds more to compile.
 #pragma once
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace CLI {
 class App;
+}
+
+namespace nephroid::compute {
+struct DeviceInfo;
 }
 
 namespace nephroid::cli {
@@ -53,5 +64,61 @@ private:
   CLI::App& app_;
   const char* group_ = nullptr;
 };
+
+/// What `nephroid [FILE...]` does. Both functions are empty in a build without the window.
+struct Window {
+  std::function<void(CLI::App& program)> add_options;
+  std::function<int(const std::vector<std::string>& files)> open; ///< returns the exit code
+};
+
+/// Parses and runs one command. Returns the exit code; every error is one line on standard error.
+int run_command_line(int argc, const char* const* argv, const Window& window);
+
+/// The verbs: one file a verb, each adding its subcommand here; those that only list what there is are in lists.cpp. A verb's callback does
+/// the work and throws Error; it sets the exit code where that is not 0. Results go to standard output, everything else to standard error.
+/// A verb that ends in order on Ctrl-C makes an Interrupts (base/interrupts.h).
+struct Session {
+  int exit_code = 0;
+};
+
+void add_run(CLI::App& program, Session& session);
+void add_plan(CLI::App& program, Session& session);
+void add_dispersion(CLI::App& program, Session& session);
+void add_clusters(CLI::App& program, Session& session);
+void add_importance(CLI::App& program, Session& session);
+void add_segment(CLI::App& program, Session& session);
+void add_report(CLI::App& program, Session& session);
+void add_compare(CLI::App& program, Session& session);
+void add_import(CLI::App& program, Session& session);
+void add_presets(CLI::App& program, Session& session);
+void add_devices(CLI::App& program, Session& session);
+void add_check(CLI::App& program, Session& session);
+void add_manual(CLI::App& program, Session& session);
+void add_schema(CLI::App& program, Session& session);
+void add_version(CLI::App& program, Session& session);
+
+/// "0  NAME  (cpu, 2 compute units, 8.1 GB, PLATFORM DRIVER, no fp64)"
+std::string device_line(const compute::DeviceInfo& device);
+
+/// A number as people type it: 3, +3, .02, 5., 1e5. Nothing where it is none or, of whole numbers, is not whole or not exact.
+template <class Number>
+std::optional<Number> typed_number(std::string_view text)
+{
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  const auto read = [text](auto& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+  };
+  Number number{};
+  if (read(number)) return number;
+  if constexpr (std::integral<Number>) {
+    constexpr double exact = 1ll << 53;
+    double value = 0;
+    if (read(value) && std::abs(value) <= std::min(exact, static_cast<double>(std::numeric_limits<Number>::max())) &&
+        std::trunc(value) == value && (value >= 0 || std::signed_integral<Number>))
+      return static_cast<Number>(value);
+  }
+  return std::nullopt;
+}
 
 } // namespace nephroid::cli

@@ -2,7 +2,6 @@
 #include "inverse/engine.h"
 
 #include "base/error.h"
-#include "inverse/glass_view.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include <filesystem>
 
 namespace nephroid::inverse {
+
 namespace {
 
 /// A receiver with a drawing casts it now, or else the first one.
@@ -66,5 +66,19 @@ constinit const engine::Engine engine{
          .new_scene = {.preset = new_scene, .what = "An object that casts two drawings"},
          .result = {.file = glass_view_file, .action = "Show as glass", .what = "as lit glass over its receivers"},
          .badge = {112, 84, 62}}};
+
+bool adoptable(const preset::Preset& before, const preset::Preset& now)
+{
+  if (settings(before).receivers.size() != settings(now).receivers.size()) return false;
+  preset::Preset same = now;
+  same.name = before.name;
+  same.description = before.description;
+  same.scene.camera = before.scene.camera;
+  if (settings(before).method == Settings::Method::assign) {
+    same.stop = before.stop;
+    settings(same).receivers = settings(before).receivers;
+  }
+  return same == before;
+}
 
 } // namespace nephroid::inverse

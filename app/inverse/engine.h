@@ -8,6 +8,8 @@
 #include "plan/plan.h"
 #include "preset/preset.h"
 
+#include <string>
+
 namespace nephroid::inverse {
 
 extern const engine::Engine engine;
@@ -32,5 +34,14 @@ std::string receiver_group(std::size_t receiver);
 
 /// Closed forms, for `nephroid check`.
 std::vector<check::Check> closed_forms();
+
+/// The finished object as lit glass over its receivers, among the files of a run.
+inline constexpr const char* glass_view_file = "view.json";
+
+/// Its JSON: a preset of engine 1 that stands beside object.obj. The design's light, which is parallel, falls on as many copies of the
+/// object as there are receivers, side by side, each over one receiver at its distance. A lamp would light all copies. The camera looks at
+/// them from the front and above, where no object hides its receiver, as far as the distances allow. The glass has the index that the
+/// design was made with, at all wavelengths.
+std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const std::string& name);
 
 } // namespace nephroid::inverse

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/glass_view.h"
+#include "inverse/engine.h"
 
-#include "inverse/light.h"
+#include "inverse/layout.h"
 #include "preset/read.h"
 #include "scene/scene.h"
 

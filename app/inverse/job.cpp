@@ -5,7 +5,6 @@
 #include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "inverse/facets/files.h"
-#include "inverse/glass_view.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
 #include "inverse/sheet.h"

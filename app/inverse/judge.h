@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law in double precision.
 #pragma once
-#include "base/state.h"
+#include "base/bytes.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"

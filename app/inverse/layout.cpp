@@ -2,7 +2,6 @@
 #include "inverse/layout.h"
 
 #include "inverse/bending.h"
-#include "inverse/light.h"
 #include "scene/materials.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,8 @@
 // z = -distance, all of them centred on the z axis. y is up, and row 0 of facets and cells is at the top: a person who looks along the
 // light sees the pictures as they are.
 #pragma once
-#include "preset/preset.h"
+#include "base/error.h"
+#include "inverse/settings.h"
 
 #include <glm/glm.hpp>
 
@@ -93,5 +94,20 @@ double usable_slope(const Layout& layout);
 
 /// Throws bad_input where no facet can bend light far enough to reach a lit cell.
 void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset);
+
+/// Fills sines, lamp and incoming. Parallel light straight on needs no table of facets. Throws bad_input, naming the tilt or distance that
+/// would do, for light from behind the front, and where facets would stand in each other's light; also where no light that enters through
+/// the front reaches a facet.
+void set_light(Layout& layout, const Light& light, const Place& where);
+
+/// At a facet's middle. power: over light that falls straight on or, of a lamp, in units of its intensity over a square millimetre.
+Incoming incoming_at(const Layout& layout, const glm::dvec2& middle);
+
+/// Light that falls on a place of the front; weight: over its mean.
+struct LightRay {
+  glm::dvec3 direction{0, 0, -1};
+  double weight = 1;
+};
+LightRay light_ray(const Layout& layout, const glm::dvec3& front);
 
 } // namespace nephroid::inverse

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/light.h"
+#include "inverse/layout.h"
 
 #include "base/parallel.h"
 #include "inverse/bending.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A way to find the facets' slopes: what a run needs of it, whichever it is.
 #pragma once
-#include "base/state.h"
+#include "base/bytes.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Error against run time: what a job noted about its own error while it worked, a row for each measurement. This is the data only:
-// measure/measured_job.h measures, measure/history_file.h reads and writes the file.
+// measure/measured_job.h measures, measure/run_files.h reads and writes the file.
 #pragma once
 #include <cstddef>
 #include <cstdint>

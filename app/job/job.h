@@ -114,4 +114,35 @@ public:
   virtual bool adopt(const preset::Preset&) { return false; }
 };
 
+/// From how much was done and how long it took in this session: a resumed run goes at this session's speed.
+struct Pace {
+  double work_per_second = 0;
+  double seconds_left = -1; ///< -1: not known yet
+};
+Pace pace_between(const Progress& start, const Progress& now);
+/// "1.21 M photons/s": three figures, in the engine's units.
+std::string rate_text(const Pace& pace, const Units& units);
+
+/// What some jobs can tell besides their picture. It is made when somebody asks (Worker::watch_spectrum): what it is made of stays on the
+/// device.
+struct PixelSpectrum {
+  struct Layer {
+    std::string name;             ///< as in the picture
+    std::vector<double> radiance; ///< W m^-2 sr^-1 nm^-1, one a wavelength of optics/wavelength.h
+  };
+  std::array<int, 2> pixel{}; ///< column and row from the top
+  std::vector<Layer> layers;
+  std::string why_not;            ///< why the run has none, with what to do; else empty
+  std::string remedy;             ///< the change of the preset with which a run has one, as for --set; empty: there is none
+  std::vector<std::string> notes; ///< how it differs from the picture's pixel, a sentence each
+};
+
+/// A job that knows spectra is one of these, too.
+class SpectrumSource {
+public:
+  virtual ~SpectrumSource() = default;
+  /// As the picture of a snapshot at the same time. On the job's thread. Null outside of the picture, and where it never has one.
+  virtual std::shared_ptr<const PixelSpectrum> spectrum(const std::array<int, 2>& pixel) = 0;
+};
+
 } // namespace nephroid::job

@@ -3,7 +3,6 @@
 #pragma once
 #include "base/error.h"
 #include "job/job.h"
-#include "job/spectrum.h"
 
 #include <chrono>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/flip.h"
+#include "measure/perceptual.h"
 
 #include "base/parallel.h"
 

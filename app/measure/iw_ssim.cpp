@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/iw_ssim.h"
+#include "measure/perceptual.h"
 
 #include "base/parallel.h"
 #include "measure/lab.h"
-#include "measure/laplacian_pyramid.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

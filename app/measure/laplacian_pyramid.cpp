@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/laplacian_pyramid.h"
+#include "measure/perceptual.h"
 
 #include "base/parallel.h"
 

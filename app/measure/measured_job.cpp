@@ -2,11 +2,10 @@
 // When to measure, what goes into a row, when the error is small enough.
 #include "measure/measured_job.h"
 
+#include "base/bytes.h"
 #include "base/error.h"
-#include "base/state.h"
 #include "job/history.h"
-#include "job/spectrum.h"
-#include "measure/error_estimate.h"
+#include "job/job.h"
 #include "preset/choices.h"
 
 #include <fmt/format.h>

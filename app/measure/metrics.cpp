@@ -3,9 +3,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "measure/flip.h"
-#include "measure/iw_ssim.h"
 #include "measure/lab.h"
+#include "measure/perceptual.h"
 
 #include <fmt/format.h>
 

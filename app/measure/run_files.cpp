@@ -4,7 +4,6 @@
 
 #include "base/counted.h"
 #include "base/files.h"
-#include "measure/history_file.h"
 
 #include <fmt/format.h>
 

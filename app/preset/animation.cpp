@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values go into the preset as JSON, as those of --set and of a sweep do: what a field takes is said once, by its description.
-#include "preset/animation.h"
+#include "preset/read.h"
 
 #include "base/counted.h"
 #include "base/monotone_cubic.h"

@@ -197,7 +197,7 @@ struct Track {
 /// The most frames an animation may have.
 inline constexpr int max_frames = 10000;
 
-/// Frames of one scene that changes (animation.h). The preset's own fields are those of frame 0.
+/// Frames of one scene that changes (read.h). The preset's own fields are those of frame 0.
 struct Animation {
   int frames = 24; ///< frame 0 to frame frames - 1
   double fps = 24; ///< frames a second
@@ -211,7 +211,7 @@ class Origins;
 struct Provenance {
   std::shared_ptr<const Origins> origins; ///< who gave each value; null where nothing was read
   std::string run;                        ///< its name as one of a sweep's runs; empty where there is no sweep
-  std::optional<int> frame;               ///< which one of an animation it is (animation.h)
+  std::optional<int> frame;               ///< which one of an animation it is (read.h)
   bool operator==(const Provenance&) const { return true; }
 };
 

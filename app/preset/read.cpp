@@ -2,7 +2,6 @@
 #include "preset/read.h"
 
 #include "base/nearest.h"
-#include "preset/animation.h"
 #include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/walks.h"

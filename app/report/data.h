@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <string>
 
 namespace nephroid::report {
 
@@ -77,5 +78,8 @@ struct PageFile {
   std::string text;
 };
 const std::vector<PageFile>& page_files();
+
+/// The page over the runs in these folders. Throws bad_input for a folder that is no run or holds an unfinished or damaged one.
+std::string report_html(std::span<const std::filesystem::path> run_folders);
 
 } // namespace nephroid::report

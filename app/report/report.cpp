@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From folders to data, and the data into the page, which holds its style, its script and the chart library itself. What every run writes
 // is required: a report with holes would be believed.
-#include "report/report.h"
 
 #include "base/files.h"
 #include "base/json_output.h"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/animation.h"
-
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/run_files.h"
-#include "preset/animation.h"
-#include "run/content.h"
+#include "preset/read.h"
+#include "run/run.h"
 
 #include <fmt/format.h>
 

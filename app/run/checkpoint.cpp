@@ -7,7 +7,6 @@
 #include "base/hashed_bytes.h"
 #include "engine/engine.h"
 #include "preset/settings_type.h"
-#include "run/content.h"
 #include "run/run.h"
 
 #include <fmt/format.h>

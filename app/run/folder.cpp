@@ -2,8 +2,7 @@
 // The folder of a run, before and while it runs: whose it is, that it can be written to, that it holds one run's files only.
 #include "base/files.h"
 #include "preset/read.h"
-#include "run/animation.h"
-#include "run/content.h"
+#include "run/run.h"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,6 @@
 
 #include "base/files.h"
 #include "engine/engine.h"
-#include "run/content.h"
 
 #include <fmt/format.h>
 

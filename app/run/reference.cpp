@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cached reference is an EXR file named by the hash of all that it depends on. Beside the mean of its two seeds it holds the first of
 // the two as further channels: their distance is the noise floor, also of a mask that is given later.
-#include "run/reference.h"
+#include "run/run.h"
 
 #include "base/build_info.h"
 #include "base/files.h"
-#include "base/hash.h"
+#include "base/hashed_bytes.h"
 #include "engine/engine.h"
 #include "image/image.h"
-#include "measure/error_estimate.h"
+#include "measure/measured_job.h"
 #include "measure/read_picture.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"
-#include "run/content.h"
 
 #include <fmt/format.h>
 

@@ -13,7 +13,25 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <functional>
+#include <stop_token>
+
 namespace nephroid::run {
+
+// What a run is made of. Checkpoints, finished runs and references are bound to it.
+
+/// The files that a preset names, each once, in its order, and what they hold now. known: of presets in the same folder; its files are not
+/// read again.
+std::vector<plan::Input> read_inputs(const preset::Preset& preset, const std::vector<plan::Input>& known = {});
+
+/// "the file 'a.obj' has changed since the run began", of the first that holds something else `now`, by its name; empty where none does.
+std::string what_changed(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now);
+/// The same since the run in the folder began, by its plan.json; empty also where that is damaged.
+std::string what_changed(const std::filesystem::path& folder, const std::vector<plan::Input>& now);
+
+/// Of the engine, its state's version, the settings that a picture's sums depend on (not: names, descriptions, stop, reference, mask) and
+/// the contents of the files that they name, whatever these are called. inputs: has them all.
+std::uint64_t content_hash(const preset::Preset& preset, const std::vector<plan::Input>& inputs);
 
 /// A loaded scene with its tree: what stays the same while only the camera, the light or the engine's settings change.
 struct LoadedScene {
@@ -66,7 +84,7 @@ void write_settings(const std::filesystem::path& folder, const Prepared& prepare
 struct FinishedRun {
   job::Progress progress; ///< its units are `words`
   std::shared_ptr<const std::vector<std::string>> words;
-  std::string changed; ///< what_changed (run/content.h) of its files since: then it is no longer the preset's
+  std::string changed; ///< what_changed() of its files since: then it is no longer the preset's
 };
 /// The run in the folder, if it is the finished run of exactly this preset; else nothing, also where run.json is damaged. known: as
 /// read_inputs takes it.
@@ -115,5 +133,48 @@ void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepa
 /// Loads it into a job that was just made. False where there is none. Throws bad_input where it is bound to something else, which it
 /// names, or is cut.
 bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);
+
+/// Null where the preset has none, and where it is a recipe that is not in the cache or damaged there. Reads the mask of preset.measure
+/// too. Throws bad_input where a file cannot be read or has another size than the run's picture.
+std::shared_ptr<const measure::Reference> find_reference(const Prepared& prepared, const compute::Context& context);
+
+/// How making one goes on: 0..1, and the seconds of work so far.
+using ReferenceProgress = std::function<void(double fraction, double seconds)>;
+
+/// Renders the recipe with both of its seeds and puts their mean into the cache. Throws failed where it cannot be made: memory, a time
+/// above reference.seconds (known after the first passes), a cache that cannot be written to; interrupted where `stop` asks for it.
+/// Only for presets whose reference is a recipe.
+std::shared_ptr<const measure::Reference> make_reference(const Prepared& prepared, const compute::Context& context,
+                                                         const std::stop_token& stop, const ReferenceProgress& progress);
+
+// An animation in its folder: frame_0003.png and frame_0003.exr of each frame, the run that made it in frames/0003, figures of all frames
+// in frames.csv, the video animation.mp4.
+
+/// frames/0003 in the animation's folder: the folder of the frame's own run.
+std::filesystem::path frame_folder(const std::filesystem::path& folder, int frame);
+/// frame_0003.png in the animation's folder; beside it lies frame_0003.exr.
+std::filesystem::path frame_picture(const std::filesystem::path& folder, int frame);
+
+/// Puts the pictures of the frame's run beside those of the other frames: as links, which take no room, or as copies where the file system
+/// has no links. Throws failed with the system's reason.
+void show_frame(const std::filesystem::path& folder, int frame);
+/// Takes them away again, and animation.mp4 with them: before the frame is rendered another time.
+void hide_frame(const std::filesystem::path& folder, int frame);
+
+/// The frame's run, if it is the finished run of exactly this preset and its pictures can be read.
+std::optional<FinishedRun> finished_frame(const std::filesystem::path& folder, int frame, const preset::Preset& preset);
+/// The frames of the preset's animation whose runs are finished and of the files as they are, in order.
+std::vector<int> finished_frames(const std::filesystem::path& folder, const preset::Preset& preset);
+
+/// Removes frames from `first` on, each with its run, and then frames.csv and animation.mp4, which were of them too.
+void remove_frames(const std::filesystem::path& folder, int first);
+
+/// frames.csv: "frame,step,work,work_seconds,error", a row for each of these frames; the error is that of run.json's error_column, and
+/// empty where nothing measured it. Throws failed as all writing does, and bad_input where a run.json is damaged.
+void write_frame_figures(const std::filesystem::path& folder, const std::vector<int>& frames);
+
+/// Makes animation.mp4 (H.264, 4:2:0, edge lengths made even) of frame_0000.png to the last of so many frames in the folder, by the program
+/// ffmpeg. Returns nothing where it is written, else why it is not: there is no ffmpeg on the PATH, or what ffmpeg says.
+std::optional<std::string> make_video(const std::filesystem::path& folder, int frames, double fps);
 
 } // namespace nephroid::run

@@ -4,9 +4,9 @@
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/json_output.h"
-#include "measure/history_file.h"
+#include "measure/run_files.h"
 #include "preset/read.h"
-#include "report/report.h"
+#include "report/data.h"
 #include "run/run.h"
 
 #include <fmt/format.h>

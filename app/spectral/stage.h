@@ -4,7 +4,6 @@
 // NAME_stage.cpp has one.
 #pragma once
 #include "job/job.h"
-#include "job/spectrum.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
 #include "spectral/energy.h"

@@ -2,7 +2,7 @@
 // What a checkpoint holds of a device: its buffers piece by piece, without the pieces that are all 0. So no second film is held on the
 // host, and an empty film takes no room.
 #pragma once
-#include "base/state.h"
+#include "base/bytes.h"
 #include "compute/compute.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run's folder as a report reads it, a part a file. What is read of history.csv is written and read again.
 #include "base/files.h"
-#include "measure/history_file.h"
+#include "measure/run_files.h"
 #include "plan/plan.h"
 #include "report/data.h"
 #include "tests/fuzz/harness.h"

@@ -2,7 +2,7 @@
 // Runs that are measured while they work: against a file, against a recipe that is rendered once, without either; until an error.
 // What cannot be measured is one clear line before anything is rendered.
 #include "image/image.h"
-#include "measure/history_file.h"
+#include "measure/run_files.h"
 #include "tests/support/plate_runs.h"
 
 namespace nephroid::reference_test {

@@ -3,7 +3,7 @@
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 #include "inverse/judge.h"
-#include "inverse/light.h"
+#include "inverse/layout.h"
 #include "optics/fresnel.h"
 #include "tests/support/test.h"
 

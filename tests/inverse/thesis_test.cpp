@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thesis' pipeline: draws from the joint probability, what is done to pictures, annealing; and as a whole: what its stages gain, that
 // it ends, and that it goes on with the same bits.
-#include "inverse/thesis/adjust.h"
 #include "inverse/thesis/pipeline.h"
 #include "inverse/thesis/sampler.h"
 #include "inverse/uniform.h"

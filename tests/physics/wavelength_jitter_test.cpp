@@ -2,7 +2,7 @@
 // One path for a whole cluster is biased; one wavelength of the cluster for each path is not, however coarse the clusters are. The truth is
 // brute force, a path for every wavelength. Low-discrepancy numbers and photons dealt by variance have to keep the expectation too. The
 // two halves of a film, from which a run tells its own error, have to be independent whatever the paths follow.
-#include "job/spectrum.h"
+#include "job/job.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"

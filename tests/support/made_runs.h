@@ -3,7 +3,7 @@
 // are known. tests/hostile/report_test.cpp makes real ones.
 #pragma once
 #include "image/image.h"
-#include "measure/history_file.h"
+#include "measure/run_files.h"
 #include "tests/support/test.h"
 
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Jobs saved to memory and loaded from there.
 #pragma once
-#include "base/state.h"
+#include "base/bytes.h"
 #include "tests/support/test.h"
 
 namespace nephroid::test {

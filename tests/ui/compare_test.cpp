@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Holding runs against each other in the window: pinned runs, flip and difference in the View.
-#include "measure/history_file.h"
+#include "measure/run_files.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::compare_test {

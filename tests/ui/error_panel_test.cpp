@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Error": what it plots of any history, how its axes follow, what it copies; the lines of a history and pinned runs, without a
 // window.
+#include "fake_job.h"
+#include "image/image.h"
 #include "measure/history_file.h"
+#include "measure/run_curves.h"
+#include "measure/run_files.h"
+#include "ui/error/lines.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::error_panel_test {

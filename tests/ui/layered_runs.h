@@ -2,6 +2,8 @@
 // Fake runs whose pictures have two layers and whose pixels have a spectrum, for tests of what the View and the Inspector show.
 #pragma once
 #include "fake_job.h"
+#include "job/job.h"
+#include "optics/wavelength.h"
 #include "spectral/settings.h"
 
 namespace nephroid::test {

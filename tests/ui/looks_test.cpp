@@ -3,7 +3,6 @@
 #include "layered_runs.h"
 #include "ui/state/tone.h"
 #include "ui/view/sight.h"
-#include "ui/view/sight.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::looks_test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Runs": the table of the run in hand and of pinned runs, its buttons, and the report over them.
-#include "measure/history_file.h"
+#include "measure/run_files.h"
 #include "ui/runs/panel.h"
 #include "ui/state/run_record.h"
 #include "window_fixture.h"

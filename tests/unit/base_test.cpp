@@ -2,7 +2,9 @@
 // Small parts of base/ and preset/: counts in words, numbers as people type them, places and how they read (RFC 6901), which field an
 // error is about, and the memory that a run is refused for.
 #include "base/counted.h"
+#include "base/place.h"
 #include "cli/numbers.h"
+#include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "run/run.h"

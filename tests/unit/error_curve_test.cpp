@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slopes, times to an error and speed-ups on curves whose answers are known in closed form. history.csv: what is written is read back
 // with the same bits, and what is no whole history is refused at its line.
-#include "measure/history_file.h"
 #include "measure/run_curves.h"
+#include "measure/run_files.h"
 #include "tests/support/test.h"
 
 namespace nephroid::error_curve_test {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // FLIP, HDR-FLIP and IW-SSIM against their authors' own programs, and what those leave undefined.
-#include "measure/flip.h"
-#include "measure/iw_ssim.h"
+#include "measure/perceptual.h"
 #include "tests/support/pictures.h"
 
 namespace nephroid::flip_test {

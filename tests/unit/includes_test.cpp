@@ -308,7 +308,7 @@ TEST(Includes, breaks_are_seen)
   EXPECT_EQ(break_of("compute", "kernels/tracing/shared_types.h", table), "");
   EXPECT_EQ(break_of("compute", "CL/opencl.hpp", table), "");
   EXPECT_EQ(break_of("base", "vector", table), "");
-  EXPECT_EQ(break_of("ui", "cli/verbs.h", table), "ui may not include cli");
+  EXPECT_EQ(break_of("ui", "cli/verb.h", table), "ui may not include cli");
   EXPECT_EQ(break_of("base", "optics/wavelength.h", table), "base may not include optics");
   EXPECT_EQ(break_of("optics", "compute/compute.h", table), "optics may not include compute");
   EXPECT_EQ(break_of("compute", "kernels/spectral/photon_map_types.h", table), "");

@@ -2,7 +2,7 @@
 // A job that measures itself, on a job whose error is known: n steps give a picture whose noise has the deviation sigma / sqrt(n).
 #include "measure/measured_job.h"
 
-#include "measure/history_file.h"
+#include "measure/run_files.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
 

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "engine/engine.h"
-#include "measure/history_file.h"
+#include "measure/run_files.h"
 #include "preset/differences.h"
 #include "ui/error/panel.h"
 #include "ui/shell/panels.h"

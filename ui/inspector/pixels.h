@@ -3,7 +3,7 @@
 // the reference is; and its spectrum as text. And statistics of a rectangle of pixels: of the run's picture, of the one it is compared
 // with, and of their difference.
 #pragma once
-#include "job/spectrum.h"
+#include "job/job.h"
 #include "ui/state/context.h"
 
 namespace nephroid::ui {

@@ -2,7 +2,7 @@
 #include "ui/shell/status_line.h"
 
 #include "base/counted.h"
-#include "job/pace.h"
+#include "job/job.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"

@@ -4,7 +4,6 @@
 #include "compute/compute.h"
 #include "measure/measured_job.h"
 #include "preset/origins.h"
-#include "run/reference.h"
 #include "run/run.h"
 
 namespace nephroid::ui {

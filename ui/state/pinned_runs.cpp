@@ -2,7 +2,6 @@
 #include "ui/state/pinned_runs.h"
 
 #include "base/files.h"
-#include "measure/history_file.h"
 #include "measure/read_picture.h"
 #include "measure/run_files.h"
 #include "ui/state/run_record.h"

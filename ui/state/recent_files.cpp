@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/hash.h"
+#include "base/hashed_bytes.h"
 #include "base/json_output.h"
 #include "image/image.h"
 #include "preset/differences.h"

@@ -6,11 +6,10 @@
 #include "base/files.h"
 #include "base/json_output.h"
 #include "image/image.h"
-#include "measure/history_file.h"
 #include "measure/run_curves.h"
+#include "measure/run_files.h"
 #include "preset/read.h"
 #include "report/data.h"
-#include "report/report.h"
 #include "run/run.h"
 #include "ui/state/files.h"
 

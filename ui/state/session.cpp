@@ -2,7 +2,7 @@
 #include "ui/state/session.h"
 
 #include "base/error.h"
-#include "base/hash.h"
+#include "base/hashed_bytes.h"
 #include "base/json_output.h"
 #include "preset/read.h"
 #include "ui/state/tone.h"

@@ -2,7 +2,7 @@
 #include "ui/state/session_keeper.h"
 
 #include "base/files.h"
-#include "measure/history_file.h"
+#include "measure/run_files.h"
 #include "ui/state/run_record.h"
 
 #include <fmt/chrono.h>

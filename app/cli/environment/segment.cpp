@@ -4,7 +4,6 @@
 #include "base/files.h"
 #include "base/json_output.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 #include "environment/segment/irradiance.h"
 #include "environment/segment/picture.h"
 #include "image/image.h"

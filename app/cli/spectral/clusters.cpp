@@ -5,7 +5,7 @@
 #include "base/json_output.h"
 #include "cli/dispersion_input.h"
 #include "cli/spectral/wavelength_runs.h"
-#include "cli/verbs.h"
+#include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "scene/materials.h"

@@ -5,7 +5,6 @@
 #include "base/json_output.h"
 #include "cli/spectral/wavelength_runs.h"
 #include "cli/verb.h"
-#include "cli/verbs.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "spectral/clusters/clusters.h"

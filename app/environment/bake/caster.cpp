@@ -3,7 +3,7 @@
 #include "environment/bake/caster.h"
 
 #include "base/error.h"
-#include "base/hash.h"
+#include "base/hashed_bytes.h"
 #include "base/nearest.h"
 #include "scene/bvh.h"
 

@@ -5,7 +5,7 @@
 #include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
-#include "inverse/facets/heights.h"
+#include "inverse/facets/solid.h"
 #include "inverse/uniform.h"
 
 #include <algorithm>

@@ -1,11 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 // Direct assignment: facet after facet is taken away and put back where it serves the pictures most.
 #pragma once
-#include "inverse/assign/refinement.h"
 #include "inverse/assign/slope_search.h"
 #include "inverse/method.h"
 
 namespace nephroid::inverse {
+
+/// The slopes of all facets at once, downhill: conjugate gradients (Polak and Ribiere) on weighted_squares(). Sweeps leave each facet at
+/// the best place among the others; moving together, facets still gain. The number of threads changes no bit.
+class Refinement {
+public:
+  /// weights: of a receiver's squares; heights: of the facets' middles. All but the weights outlive it.
+  Refinement(const Layout& layout, const std::vector<Target>& targets, std::vector<double> weights, const std::vector<double>& heights);
+
+  /// One step along a line; the sum gets smaller, or it is finished. light: [receiver][cell], of the slopes by their footprints.
+  void advance(std::vector<glm::dvec2>& slopes, std::vector<std::vector<double>>& light);
+  bool finished() const;
+  double part() const;
+
+  void state(State& state);
+
+private:
+  void find_gradient(const std::vector<glm::dvec2>& slopes, const std::vector<std::vector<double>>& light);
+  double turn();
+
+  const Layout& layout_;
+  const std::vector<Target>& targets_;
+  std::vector<double> weights_;
+  const std::vector<double>& heights_;
+  // The state.
+  std::vector<glm::dvec2> gradient_, before_, direction_; ///< of each facet; before_: the gradient of the last step
+  double step_ = 0;                                       ///< along the direction
+  std::size_t done_ = 0;
+  bool stuck_ = false;
+};
 
 /// Lowers weighted_squares(), and what smoothing adds to it (cost.h). A sweep goes through all facets in a random order, in batches of
 /// a few: every facet of a batch looks for its slope at once, on as many threads as there are, among the light as it is before the batch;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/assign/refinement.h"
+#include "inverse/assign/assignment.h"
 
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"

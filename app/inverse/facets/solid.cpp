@@ -2,7 +2,6 @@
 #include "inverse/facets/solid.h"
 
 #include "inverse/bending.h"
-#include "inverse/facets/heights.h"
 
 #include <glm/gtc/constants.hpp>
 

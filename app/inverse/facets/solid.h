@@ -5,6 +5,8 @@
 #include "inverse/layout.h"
 #include "scene/mesh.h"
 
+#include <span>
+
 namespace nephroid::inverse {
 
 enum class Part : std::uint8_t { facet, wall, side, front };
@@ -34,5 +36,15 @@ Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 /// Without walls: neighbours share their corners. A facet is four triangles about its middle. corners: z, row by row from the top, one more
 /// across and down than facets.
 Solid make_smooth_solid(const Layout& layout, const std::vector<double>& corners);
+
+/// z of the facets' middles for which the walls between them are lowest: the least sum over shared edges of the integral of the squared
+/// step. Without a band that is Poisson's equation on the grid of facets, which a cosine transform solves; the middle of the relief is at
+/// z = 0. With layout.band, no corner is further than that from z = 0: the same least squares under these bounds, from the clamped
+/// solution on by projected successive overrelaxation (Cryer 1971).
+/// gradients: of each facet; a facet must fit into the band by itself.
+std::vector<double> least_steps(const Layout& layout, std::span<const glm::dvec2> gradients);
+
+/// As the layout says: free, or all of them 0.
+std::vector<double> heights_of(const Layout& layout, std::span<const glm::dvec2> slopes);
 
 } // namespace nephroid::inverse

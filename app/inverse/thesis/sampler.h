@@ -2,7 +2,7 @@
 // The joint probability of a facet's slope (thesis 5.1), draws from it, and what light aimed at some pictures makes of them by many draws
 // of every facet (thesis 5.2, "cost computation").
 #pragma once
-#include "base/state.h"
+#include "base/bytes.h"
 #include "inverse/layout.h"
 #include "inverse/settings.h"
 

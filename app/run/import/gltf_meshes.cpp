@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/import/gltf_meshes.h"
+#include "run/import/gltf_scene.h"
 
 #include "base/files.h"
 

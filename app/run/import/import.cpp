@@ -4,7 +4,6 @@
 #include "base/counted.h"
 #include "base/files.h"
 #include "preset/read.h"
-#include "run/import/gltf_meshes.h"
 #include "run/import/gltf_scene.h"
 
 #include <fmt/format.h>
