@@ -3,7 +3,6 @@
 // without the caster, points of its surface, what is left out.
 #include "environment/bake/caster.h"
 #include "environment/occlusion/occlusion.h"
-#include "environment/occlusion/samples.h"
 #include "scene/scene.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"

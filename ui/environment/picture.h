@@ -2,7 +2,7 @@
 // The environment as a flat picture: where a direction lies in it and back, its pixels, and the regions of a segmentation as lines. All
 // of it is in the map's own frame, not turned by rotate_deg. No Dear ImGui.
 #pragma once
-#include "environment/segment/picture.h"
+#include "environment/segment/segment.h"
 
 namespace nephroid::ui {
 

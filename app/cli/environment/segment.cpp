@@ -6,7 +6,6 @@
 #include "cli/verb.h"
 #include "cli/verbs.h"
 #include "environment/segment/irradiance.h"
-#include "environment/segment/picture.h"
 #include "image/image.h"
 #include "preset/origins.h"
 #include "preset/read.h"
