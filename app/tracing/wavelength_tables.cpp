@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/wavelength_tables.h"
 
-#include "optics/colour.h"
 #include "tracing/scales.h"
 #include "tracing/scene_tables.h"
 
@@ -173,9 +172,6 @@ void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, Waveleng
     tables.wavelength_cdf.insert(tables.wavelength_cdf.end(), cdf.begin(), cdf.end());
   }
 }
-
-using optics::Spectrum;
-using optics::wavelength_count;
 
 constexpr std::size_t middle_wavelength = 200; // 580 nm
 constexpr double jump_ratio = 8;

@@ -2,7 +2,6 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include "environment/bake/caster.h"
 
-#include "base/error.h"
 #include "base/hash.h"
 #include "base/nearest.h"
 #include "scene/bvh.h"

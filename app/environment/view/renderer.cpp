@@ -3,8 +3,6 @@
 
 #include "base/parallel.h"
 #include "environment/colours.h"
-#include "environment/occlusion/occlusion.h"
-#include "tracing/scene_tables.h"
 
 #include <algorithm>
 #include <array>
