@@ -348,8 +348,6 @@ void Renderer::move_objects(MovedObjects moved)
   begin_anew();
 }
 
-void Renderer::set_white(double white) { white_ = white; }
-
 void Renderer::turn_environment(double rotate_deg)
 {
   rotate_deg_ = rotate_deg;
