@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check/check.h"
 
-#include "base/error.h"
-
 #include <limits>
 
 namespace nephroid::check {

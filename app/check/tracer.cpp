@@ -3,15 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace nephroid::check {
-namespace {
-
-constexpr std::size_t rays_per_group = 64;
-
-} // namespace
 
 KernelTracer::KernelTracer(const compute::Context& context, const scene::Bvh& bvh, compute::Defines defines)
     : bvh_(bvh), context_(context), nodes_(context, "nodes", std::span(bvh.nodes)), blocks_(context, "blocks", std::span(bvh.blocks))
@@ -35,8 +29,7 @@ void KernelTracer::set_rays(const std::vector<Ray>& rays)
 void KernelTracer::run(compute::Kernel& kernel, const compute::Argument& answers)
 {
   const auto count = static_cast<std::uint32_t>(rays_.size());
-  kernel.run(count, rays_per_group,
-             {{"nodes", nodes_}, {"blocks", blocks_}, {"root", bvh_.root}, {"rays", rays_}, {"count", count}, answers});
+  kernel.run(count, 64, {{"nodes", nodes_}, {"blocks", blocks_}, {"root", bvh_.root}, {"rays", rays_}, {"count", count}, answers});
   context_.finish();
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/colours.h"
 
-#include "optics/colour.h"
 #include "tracing/scales.h"
 #include "tracing/scene_tables.h"
 

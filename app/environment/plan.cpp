@@ -5,7 +5,6 @@
 #include "environment/bake/bake.h"
 #include "environment/describe_settings.h"
 #include "environment/engine.h"
-#include "environment/occlusion/samples.h"
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
 #include "tracing/omissions.h"

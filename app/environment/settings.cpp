@@ -3,7 +3,6 @@
 // plan (bake/caster.cpp).
 #include "environment/settings.h"
 
-#include "base/error.h"
 #include "environment/bake/bake.h"
 #include "environment/describe_settings.h"
 #include "preset/settings_type.h"

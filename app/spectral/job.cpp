@@ -14,7 +14,6 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <string_view>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/sight.h"
 
-#include "optics/wavelength.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>

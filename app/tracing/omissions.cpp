@@ -3,7 +3,6 @@
 
 #include "base/counted.h"
 #include "preset/choices.h"
-#include "scene/scene.h"
 #include "tracing/targets.h"
 
 #include <fmt/format.h>

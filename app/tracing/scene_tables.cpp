@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/scene_tables.h"
 
-#include "base/error.h"
 #include "tracing/omissions.h"
 #include "tracing/scales.h"
 #include "tracing/targets.h"

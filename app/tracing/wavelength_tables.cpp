@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/wavelength_tables.h"
 
-#include "optics/colour.h"
 #include "tracing/scales.h"
 #include "tracing/scene_tables.h"
 
@@ -19,10 +18,7 @@ using shared::float4;
 
 static_assert(WAVELENGTH_COUNT == wavelength_count, "kernels and host mean the same wavelengths");
 
-float4 to_float4(const std::array<double, 4>& v)
-{
-  return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), static_cast<float>(v[3])};
-}
+float4 to_float4(const glm::dvec4& v) { return tracing::to_float4(glm::dvec3(v), v.w); }
 
 std::vector<bool> used_materials(const scene::Scene& scene)
 {
@@ -95,17 +91,14 @@ void add_wavelength_rows(const scene::Scene& scene, WavelengthTables& tables)
 }
 
 /// Sum over wavelengths of light share times reflectance times (xbar, ybar, zbar), and of the light share.
-std::array<double, 4> reflected(const Spectrum& light, const float* reflectance, const std::vector<int>& wavelengths)
+glm::dvec4 reflected(const Spectrum& light, const float* reflectance, const std::vector<int>& wavelengths)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
-  std::array<double, 4> sum{};
+  glm::dvec4 sum(0);
   for (const int index : wavelengths) {
     const auto w = static_cast<std::size_t>(index);
     const double reflected = light[w] * (reflectance ? reflectance[w] : 1.0);
-    sum[0] += reflected * eye.x[w];
-    sum[1] += reflected * eye.y[w];
-    sum[2] += reflected * eye.z[w];
-    sum[3] += light[w];
+    sum += glm::dvec4(reflected * eye.x[w], reflected * eye.y[w], reflected * eye.z[w], light[w]);
   }
   return sum;
 }
@@ -139,7 +132,7 @@ void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTa
     std::vector<double>& share = tables.share.emplace_back();
     std::vector<double>& seen = tables.seen.emplace_back();
     for (const std::vector<int>& cluster : tables.clusters) {
-      const std::array<double, 4> sum = reflected(light->spectrum, nullptr, cluster);
+      const glm::dvec4 sum = reflected(light->spectrum, nullptr, cluster);
       share.push_back(sum[3]);
       seen.push_back((sum[0] + sum[1] + sum[2]) / 3);
     }
@@ -164,7 +157,7 @@ void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, Waveleng
     for (const int w : cluster) {
       double weight = 0;
       for (const scene::Light* light : lights) {
-        const std::array<double, 4> xyz_power = reflected(light->spectrum, nullptr, {w});
+        const glm::dvec4 xyz_power = reflected(light->spectrum, nullptr, {w});
         weight += radiometric(*light) * worth((xyz_power[0] + xyz_power[1] + xyz_power[2]) / 3, xyz_power[3]);
       }
       weights.push_back(weight);
@@ -173,9 +166,6 @@ void add_wavelength_cdf(const std::vector<const scene::Light*>& lights, Waveleng
     tables.wavelength_cdf.insert(tables.wavelength_cdf.end(), cdf.begin(), cdf.end());
   }
 }
-
-using optics::Spectrum;
-using optics::wavelength_count;
 
 constexpr std::size_t middle_wavelength = 200; // 580 nm
 constexpr double jump_ratio = 8;

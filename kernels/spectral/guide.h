@@ -6,7 +6,7 @@
 #ifndef NEPHROID_GUIDE_H
 #define NEPHROID_GUIDE_H
 
-#include "kernels/tracing/choice.h"
+#include "kernels/tracing/random.h"
 #include "kernels/tracing/shared_types.h"
 
 typedef struct {

@@ -5,7 +5,7 @@
 #define NEPHROID_BAND_H
 
 #include "kernels/tracing/shared_types.h"
-#include "kernels/tracing/choice.h"
+#include "kernels/tracing/random.h"
 
 #ifndef NEPHROID_JITTER
 #define NEPHROID_JITTER 1

@@ -4,7 +4,6 @@
 #define NEPHROID_CAMERA_H
 
 #include "kernels/tracing/shared_types.h"
-#include "kernels/tracing/choice.h"
 #include "kernels/tracing/random.h"
 
 // jitter: the place in the pixel's square, [0, 1) each way.

@@ -9,7 +9,7 @@
 #ifndef NEPHROID_SKY_H
 #define NEPHROID_SKY_H
 
-#include "kernels/tracing/choice.h"
+#include "kernels/tracing/random.h"
 #include "kernels/tracing/light.h"
 
 typedef struct {

@@ -2,7 +2,7 @@
 // The directions in which occluders are looked for, without a device: exact sums, and what is left of a light behind balls, against every
 // texel of the cube.
 #include "environment/occlusion/occlusion.h"
-#include "environment/occlusion/samples.h"
+#include "scene/bvh.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where baked objects stand in the scene: their vertices there are those of the bake, turned and moved. What is around them: scenes
 // without the caster, points of its surface, what is left out.
+#include "environment/bake/caster.h"
+#include "environment/occlusion/occlusion.h"
+#include "scene/scene.h"
+#include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 #include "tests/environment/views.h"
 #include "tests/support/loaded_scenes.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs that are interrupted, killed, resumed, repeated, given one thread or two, a full disk, no HOME: the same bits or a clear line.
 #include "image/image.h"
-#include "measure/history_file.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
 #include "run/run.h"

@@ -3,7 +3,6 @@
 // window.
 #include "fake_job.h"
 #include "image/image.h"
-#include "measure/history_file.h"
 #include "measure/run_curves.h"
 #include "measure/run_files.h"
 #include "ui/error/lines.h"

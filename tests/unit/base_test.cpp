@@ -3,7 +3,6 @@
 // error is about, and the memory that a run is refused for.
 #include "base/counted.h"
 #include "base/place.h"
-#include "cli/numbers.h"
 #include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"

@@ -2,7 +2,6 @@
 #include "environment/light/caustics.h"
 
 #include "base/parallel.h"
-#include "tracing/world.h"
 
 #include <glm/gtc/packing.hpp>
 

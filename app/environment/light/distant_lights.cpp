@@ -2,10 +2,7 @@
 #define GLM_ENABLE_EXPERIMENTAL
 #include "environment/light/distant_lights.h"
 
-#include "base/error.h"
 #include "environment/bake/bake.h"
-#include "optics/colour.h"
-#include "tracing/world.h"
 #include <algorithm>
 #include <array>
 #include <cmath>

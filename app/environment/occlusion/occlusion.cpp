@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/occlusion/occlusion.h"
 
-#include "optics/wavelength.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>

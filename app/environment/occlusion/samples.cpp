@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "environment/occlusion/samples.h"
+#include "environment/occlusion/occlusion.h"
 
 #include "base/parallel.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 #include <array>

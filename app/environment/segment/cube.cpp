@@ -6,7 +6,6 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace nephroid::environment {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "environment/segment/picture.h"
+#include "environment/segment/segment.h"
 
 #include "image/image.h"
 

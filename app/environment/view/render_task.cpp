@@ -2,11 +2,6 @@
 #include "environment/view/render_task.h"
 
 #include "environment/bake/baker.h"
-#include "environment/occlusion/occlusion.h"
-#include "environment/occlusion/samples.h"
-#include "environment/settings.h"
-#include "scene/environment.h"
-#include "scene/scene.h"
 #include "tracing/omissions.h"
 
 #include <algorithm>

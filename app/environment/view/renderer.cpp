@@ -3,8 +3,6 @@
 
 #include "base/parallel.h"
 #include "environment/colours.h"
-#include "environment/occlusion/occlusion.h"
-#include "tracing/scene_tables.h"
 
 #include <algorithm>
 #include <array>
@@ -349,8 +347,6 @@ void Renderer::move_objects(MovedObjects moved)
   light_up();
   begin_anew();
 }
-
-void Renderer::set_white(double white) { white_ = white; }
 
 void Renderer::turn_environment(double rotate_deg)
 {

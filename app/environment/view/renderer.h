@@ -47,7 +47,7 @@ public:
   /// After Caustics::set_own. passes_had_them: passes go on; else they begin anew, without a coarse picture.
   void take_own_directions(bool passes_had_them);
   /// Of the next picture().
-  void set_white(double white);
+  void set_white(double white) { white_ = white; }
 
   const Segmentation& segmentation() const { return task_.segmentation; }
   /// What is left of each of the segmentation's lights where the object is.

@@ -2,8 +2,6 @@
 #include "spectral/checks/render.h"
 
 #include "optics/fresnel.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "spectral/engine.h"
 
 #include <glm/glm.hpp>

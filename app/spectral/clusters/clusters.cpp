@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/clusters/clusters.h"
 
-#include "base/error.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,10 +3,6 @@
 // diffuse or mirror light.
 #include "spectral/effort/importance.h"
 
-#include "base/error.h"
-#include "optics/colour.h"
-#include "scene/bvh.h"
-#include "scene/scene.h"
 #include "tracing/targets.h"
 
 #include <algorithm>

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "spectral/maps/photon_map.h"
 
-#include "base/error.h"
 #include "spectral/maps/eye_paths.h"
 #include "spectral/sight.h"
-#include "tracing/omissions.h"
 #include "tracing/scales.h"
 
 #include <fmt/format.h>

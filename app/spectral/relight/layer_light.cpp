@@ -25,16 +25,15 @@ double reflectance(const tracing::WavelengthTables& tables, std::size_t reflecto
 std::vector<double> cluster_worth(const optics::Spectrum& spectrum, const tracing::WavelengthTables& tables)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
-  std::vector<double> power;
+  std::vector<double> sums;
   for (const std::vector<int>& cluster : tables.clusters) {
-    double sum = 0;
+    double& sum = sums.emplace_back(0);
     for (const int index : cluster) {
       const auto w = static_cast<std::size_t>(index);
       sum += tracing::worth(spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, spectrum[w]);
     }
-    power.push_back(sum);
   }
-  return power;
+  return sums;
 }
 
 /// The parts become half of what they are of their sum, and get an equal part of the other half each; those that are `never` get nothing.
