@@ -15,9 +15,11 @@ namespace fs = std::filesystem;
 std::vector<std::string> shipped_materials()
 {
   std::vector<std::string> names;
-  if (const fs::path presets = presets_folder_if_any(); is_there(presets / "materials") && !presets.empty())
-    for (const fs::directory_entry& entry : fs::directory_iterator(presets / "materials"))
-      if (entry.path().extension() == ".yml") names.push_back(entry.path().stem().string());
+  const fs::path presets = presets_folder_if_any();
+  if (presets.empty()) return names;
+  std::error_code error; // a folder that cannot be read has none
+  for (fs::directory_iterator entry(presets / "materials", error), end; !error && entry != end; entry.increment(error))
+    if (entry->path().extension() == ".yml") names.push_back(entry->path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -31,15 +31,23 @@ double channel_mean(const float* a, const float* b, const Of& of)
   return (of(double{a[0]}, double{b[0]}) + of(double{a[1]}, double{b[1]}) + of(double{a[2]}, double{b[2]})) / 3;
 }
 
-/// Of a pixel alone, as flip is not.
 double value(const float* a, const float* b, DifferenceMetric metric)
 {
-  using Metric = DifferenceMetric;
-  if (metric == Metric::lab) return lab_distance(a, b);
-  if (metric == Metric::absolute) return channel_mean(a, b, [](double x, double y) { return std::fabs(x - y); });
-  if (metric == Metric::relative) return channel_mean(a, b, [](double x, double y) { return std::fabs(x - y) / (std::fabs(y) + 0.01); });
-  if (metric == Metric::square) return channel_mean(a, b, [](double x, double y) { return (x - y) * (x - y); });
-  return luminance(a) - luminance(b);
+  switch (metric) {
+  case DifferenceMetric::lab:
+    return lab_distance(a, b);
+  case DifferenceMetric::absolute:
+    return channel_mean(a, b, [](double x, double y) { return std::fabs(x - y); });
+  case DifferenceMetric::relative:
+    return channel_mean(a, b, [](double x, double y) { return std::fabs(x - y) / (std::fabs(y) + 0.01); });
+  case DifferenceMetric::square:
+    return channel_mean(a, b, [](double x, double y) { return (x - y) * (x - y); });
+  case DifferenceMetric::luminance:
+    return luminance(a) - luminance(b);
+  case DifferenceMetric::flip: // not of a pixel alone: flip_map
+    break;
+  }
+  return 0;
 }
 
 /// ColorBrewer's RdBu of 11 classes, red, green and blue of each, from blue to red (Cynthia Brewer, colorbrewer2.org).

@@ -217,8 +217,9 @@ struct BvhRelease {
 
 std::map<std::string, std::string> tree_defines(const Bvh& bvh)
 {
-  // A tree that is one leaf has kernels of its own; others come in few sizes.
-  const int stack = bvh.stack <= 1 ? 1 : (bvh.stack + 31) / 32 * 32;
+  // Ellipsoids in one leaf have kernels of their own; other trees come in few sizes.
+  const bool one_leaf = bvh.stack <= 1 && !bvh.ellipsoid_places.empty();
+  const int stack = one_leaf ? 1 : std::max(1, (bvh.stack + 31) / 32) * 32;
   return {{"NEPHROID_ELLIPSOIDS", bvh.ellipsoid_places.empty() ? "0" : "1"}, {"NEPHROID_BVH_STACK", std::to_string(stack)}};
 }
 

@@ -51,31 +51,56 @@ std::filesystem::path find_dispersion(const std::string& name, const FileFinder&
 optics::DispersionCurve make_curve(const preset::Dispersion& dispersion, const FileFinder& finder, const Place& where)
 {
   using Type = preset::Dispersion::Type;
-  return at(where, [&, type = dispersion.type] {
-    if (type == Type::file) return optics::load_dispersion(find_dispersion(dispersion.file, finder, where));
-    if (type == Type::sellmeier) return optics::sellmeier(dispersion.b, dispersion.c_um2);
-    if (type == Type::cauchy) return optics::cauchy(dispersion.coefficients);
-    if (type == Type::table) return optics::tabulated(dispersion.table);
-    return type == Type::points ? optics::control_points(dispersion.table) : optics::constant_index(dispersion.n);
+  return at(where, [&] {
+    switch (dispersion.type) {
+    case Type::file:
+      return optics::load_dispersion(find_dispersion(dispersion.file, finder, where));
+    case Type::sellmeier:
+      return optics::sellmeier(dispersion.b, dispersion.c_um2);
+    case Type::cauchy:
+      return optics::cauchy(dispersion.coefficients);
+    case Type::table:
+      return optics::tabulated(dispersion.table);
+    case Type::points:
+      return optics::control_points(dispersion.table);
+    case Type::constant:
+      break;
+    }
+    return optics::constant_index(dispersion.n);
   });
 }
 
 optics::Spectrum make_light_spectrum(const preset::LightSpectrum& spectrum, const Place& where)
 {
   using Type = preset::LightSpectrum::Type;
-  return at(where, [&, type = spectrum.type] {
-    if (type == Type::blackbody) return optics::blackbody(spectrum.temperature_k);
-    if (type == Type::lines) return optics::light_lines(spectrum.table);
-    return type == Type::table ? optics::light_table(spectrum.table) : optics::illuminant(spectrum.illuminant);
+  return at(where, [&] {
+    switch (spectrum.type) {
+    case Type::blackbody:
+      return optics::blackbody(spectrum.temperature_k);
+    case Type::lines:
+      return optics::light_lines(spectrum.table);
+    case Type::table:
+      return optics::light_table(spectrum.table);
+    case Type::illuminant:
+      break;
+    }
+    return optics::illuminant(spectrum.illuminant);
   });
 }
 
 optics::Spectrum make_reflectance(const preset::Reflectance& reflectance, const Place& where)
 {
   using Type = preset::Reflectance::Type;
-  return at(where, [&, type = reflectance.type] {
-    if (type == Type::patch) return optics::colorchecker_patch(reflectance.patch);
-    return type == Type::table ? optics::reflectance_table(reflectance.table) : optics::constant_spectrum(reflectance.value);
+  return at(where, [&] {
+    switch (reflectance.type) {
+    case Type::patch:
+      return optics::colorchecker_patch(reflectance.patch);
+    case Type::table:
+      return optics::reflectance_table(reflectance.table);
+    case Type::constant:
+      break;
+    }
+    return optics::constant_spectrum(reflectance.value);
   });
 }
 

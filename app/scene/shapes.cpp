@@ -167,15 +167,25 @@ Mesh make_brilliant()
 
 Mesh make_outward(const preset::Shape& shape)
 {
-  using Type = preset::Shape::Type;
-  if (shape.type == Type::quad) return make_quad(shape.size[0], shape.size[2]);
-  if (shape.type == Type::box || shape.type == Type::plate) return make_box(shape.size);
-  if (shape.type == Type::sphere) return make_sphere(static_cast<float>(shape.radius));
-  if (shape.type == Type::cylinder) return make_cylinder(shape.radius, shape.height, shape.segments);
-  if (shape.type == Type::prism) return make_prism(shape.apex_deg, shape.side, shape.height);
-  Mesh mesh = make_brilliant();
-  for (glm::vec3& position : mesh.positions) position *= static_cast<float>(shape.radius);
-  return mesh;
+  switch (shape.type) {
+  case preset::Shape::Type::quad:
+    return make_quad(shape.size[0], shape.size[2]);
+  case preset::Shape::Type::box:
+  case preset::Shape::Type::plate:
+    return make_box(shape.size);
+  case preset::Shape::Type::sphere:
+    return make_sphere(static_cast<float>(shape.radius));
+  case preset::Shape::Type::cylinder:
+    return make_cylinder(shape.radius, shape.height, shape.segments);
+  case preset::Shape::Type::prism:
+    return make_prism(shape.apex_deg, shape.side, shape.height);
+  case preset::Shape::Type::brilliant: {
+    Mesh mesh = make_brilliant();
+    for (glm::vec3& position : mesh.positions) position *= static_cast<float>(shape.radius);
+    return mesh;
+  }
+  }
+  return {};
 }
 
 } // namespace

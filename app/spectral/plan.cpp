@@ -123,6 +123,7 @@ plan::Pass differentials_pass(const PlanInput& input)
           "/spectral/differentials", true};
 }
 
+/// Whether a run has caustics, and how their photons are sent: photon_stage.cpp splats them, map_stage.cpp and sppm_stage.cpp gather them.
 PlanPart plan_caustics(const PlanInput& input)
 {
   const plan::Pass jitter = jitter_pass(input), low_discrepancy = low_discrepancy_pass(input.settings),

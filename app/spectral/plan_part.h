@@ -70,7 +70,7 @@ struct RunPart {
 extern const RunPart direct_stage, photon_stage, map_stage, sppm_stage, indirect_stage, background_stage;
 /// In their place where layers are kept for another light.
 extern const RunPart layered_direct_stage, layered_photon_stage;
-extern const RunPart relighting_part; ///< relight/relighting.cpp: what these two share
+extern const RunPart relighting_part; ///< relight/layer_film.cpp: what these two share
 extern const RunPart smoothing_part;  ///< smoothing.cpp
 
 /// A stage that the preset does not ask for; field: of its section "spectral".

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every shipped preset makes a picture: finite, lit, its layers adding up, its energy accounted for, and noise falling as it should.
+// Every shipped preset makes a picture with the general kernels: finite, lit, its layers adding up, its energy accounted for, and noise
+// falling as it should. statistics_test.cpp renders with those of the scene.
 #include "preset/read.h"
 #include "tests/support/render.h"
 #include "tests/support/test.h"

@@ -243,7 +243,7 @@ TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers)
   p.scene.objects.pop_back(); // no diffuse surface
   p.stop.passes = 1;
   tracing::LeaveOut leave_out{.direct = false, .photons = false};
-  const job::Snapshot snapshot = render(*job_of(p, leave_out));
+  const job::Snapshot snapshot = render(*specialised_job_of(p, leave_out));
   for (const float value : snapshot.picture->rgb) ASSERT_EQ(value, 0);
 }
 

@@ -8,7 +8,7 @@ namespace nephroid::radiometry_test {
 
 /// A floor seen from straight above, a light above it, and nothing or a sheet of "glass" with n = 1 between them.
 /// The floor is the plane y = 0, reflectance 1; the camera is at height 2 and sees 1 m x 1 m of it.
-/// Direct light alone, of so many passes.
+/// Direct light, of so many passes.
 preset::Preset floor_preset(int passes)
 {
   preset::Preset p = empty_preset(32);

@@ -41,8 +41,9 @@ inline std::unique_ptr<job::Job> job_as_it_is(const preset::Preset& preset)
   return job_as_it_is(preset, tracing::LeaveOut{.all = preset.leave_out});
 }
 
-inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const tracing::LeaveOut& leave_out,
-                                        const compute::Context& context = shared_context())
+/// With the kernels that are made for the scene.
+inline std::unique_ptr<job::Job> specialised_job_of(const preset::Preset& preset, const tracing::LeaveOut& leave_out,
+                                                    const compute::Context& context = shared_context())
 {
   return job_as_it_is(plain(preset), leave_out, context);
 }

@@ -24,7 +24,7 @@ Plan example()
   plan.engine = "spectral";
   plan.passes = {{"photons", true, "one light reaches 1 dielectric"}, {"absorption", false, "k is 0 everywhere"}};
   plan.buffers = {{"film", 3ull << 20}, {"tree", 5ull << 33}};
-  plan.defines = {{"MAX_SURFACES", "32"}};
+  plan.defines = {{"BVH_STACK", "32"}};
   plan.notes = {"bunny: 12 open edges"};
   plan.inputs = {{"bunny.obj", "00ff"}};
   return plan;
@@ -37,7 +37,7 @@ TEST(Plan, JsonIsTheContract)
   EXPECT_EQ(json["passes"], Json::parse(R"([{"name":"photons","runs":true,"reason":"one light reaches 1 dielectric"},
                                                       {"name":"absorption","runs":false,"reason":"k is 0 everywhere"}])"));
   EXPECT_EQ(json["buffers"][1]["bytes"], 5ull << 33);
-  EXPECT_EQ(json["defines"], (Json{{"MAX_SURFACES", "32"}}));
+  EXPECT_EQ(json["defines"], (Json{{"BVH_STACK", "32"}}));
   EXPECT_EQ(json["notes"], (Json{"bunny: 12 open edges"}));
   EXPECT_EQ(json["inputs"], Json::parse(R"([{"file":"bunny.obj","content":"00ff"}])"));
   EXPECT_EQ(json.size(), 6u);
@@ -81,7 +81,7 @@ TEST(Plan, TextSaysWhatIsLeftOutAndWhyAndAddsUpTheMemory)
   EXPECT_THAT(text, HasSubstr("absorption  left out  k is 0 everywhere"));
   EXPECT_THAT(text, HasSubstr("3.00 MiB"));
   EXPECT_THAT(text, HasSubstr("total   40.0 GiB"));
-  EXPECT_THAT(text, HasSubstr("-D MAX_SURFACES=32"));
+  EXPECT_THAT(text, HasSubstr("-D BVH_STACK=32"));
   EXPECT_THAT(text, HasSubstr("bunny: 12 open edges"));
 }
 

@@ -85,7 +85,7 @@ Action tone_action(const char* name, const char* help, ToneCurve curve)
 
 void next_tone(C c)
 {
-  look(c, [](Look& l) { l.tone = static_cast<ToneCurve>((static_cast<int>(l.tone) + 1) % 3); });
+  look(c, [](Look& l) { l.tone = static_cast<ToneCurve>((static_cast<int>(l.tone) + 1) % tone_curves); });
 }
 
 bool has_pixel(C c) { return c.chosen.pixel.has_value(); }

@@ -23,6 +23,7 @@ namespace nephroid::ui {
 /// How linear values become what a display shows. standard: as image.png. filmic: for a wide range (state/tone.h). false_colour: of the
 /// luminance, logarithmic; exposure plays no part.
 enum class ToneCurve { standard, filmic, false_colour };
+inline constexpr int tone_curves = 3;
 
 /// The luminance at the two ends of false colour.
 struct LuminanceRange {

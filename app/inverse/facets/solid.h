@@ -37,6 +37,7 @@ Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 /// across and down than facets.
 Solid make_smooth_solid(const Layout& layout, const std::vector<double>& corners);
 
+/// Along z a facet may be moved at hardly any optical cost, so that its edges meet those of its neighbours.
 /// z of the facets' middles for which the walls between them are lowest: the least sum over shared edges of the integral of the squared
 /// step. Without a band that is Poisson's equation on the grid of facets, which a cosine transform solves; the middle of the relief is at
 /// z = 0. With layout.band, no corner is further than that from z = 0: the same least squares under these bounds, from the clamped

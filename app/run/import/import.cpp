@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "preset/read.h"
 #include "run/import/gltf_scene.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 

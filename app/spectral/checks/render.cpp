@@ -20,7 +20,6 @@ void share_programs(compute::Defines& defines)
 {
   const auto at_least = [&](const char* name, int value) { defines[name] = std::to_string(std::max(std::stoi(defines[name]), value)); };
   at_least("NEPHROID_BVH_STACK", stack);
-  at_least("NEPHROID_ATTENUATORS", 1);
   at_least("NEPHROID_ELLIPSOIDS", 1);
 }
 
