@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program's entry: gives the command line to cli/, and the window's options to ui/ where the build has a window.
+#include "cli/verb.h"
 
 #ifdef NEPHROID_UI
-#include "cli/verb.h"
 #include "ui/shell/window.h"
 
 #include <memory>
