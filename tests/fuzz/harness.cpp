@@ -67,8 +67,8 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments)
   const std::string_view last = (*arguments)[*count - 1];
   const std::vector<std::string> first = seeds(); // with what every input needs, as a job that has begun: its time is no input's
   if (!last.starts_with(flag)) return 0;
-  const fs::path into = last.substr(flag.size());
-  fs::create_directories(into);
+  const nephroid::fs::path into = last.substr(flag.size());
+  nephroid::fs::create_directories(into);
   int number = 0;
   for (const std::string& seed : first) std::ofstream(into / fmt::format("seed-{}", number++), std::ios::binary) << seed;
   std::exit(0);
