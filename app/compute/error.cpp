@@ -5,36 +5,58 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
-#include <sstream>
 
 namespace nephroid::compute {
 namespace detail {
 
-// The codes and, as one text, their names.
-#define NEPHROID_CODES(...)                                                                                                                \
-  constexpr cl_int codes[] = {__VA_ARGS__};                                                                                                \
-  constexpr const char* code_names = #__VA_ARGS__;
-NEPHROID_CODES(CL_DEVICE_NOT_FOUND, CL_DEVICE_NOT_AVAILABLE, CL_COMPILER_NOT_AVAILABLE, CL_MEM_OBJECT_ALLOCATION_FAILURE,
-               CL_OUT_OF_RESOURCES, CL_OUT_OF_HOST_MEMORY, CL_BUILD_PROGRAM_FAILURE, CL_MISALIGNED_SUB_BUFFER_OFFSET,
-               CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST, CL_COMPILE_PROGRAM_FAILURE, CL_LINKER_NOT_AVAILABLE, CL_LINK_PROGRAM_FAILURE,
-               CL_KERNEL_ARG_INFO_NOT_AVAILABLE, CL_INVALID_VALUE, CL_INVALID_PLATFORM, CL_INVALID_DEVICE, CL_INVALID_CONTEXT,
-               CL_INVALID_COMMAND_QUEUE, CL_INVALID_MEM_OBJECT, CL_INVALID_BUILD_OPTIONS, CL_INVALID_PROGRAM, CL_INVALID_PROGRAM_EXECUTABLE,
-               CL_INVALID_KERNEL_NAME, CL_INVALID_KERNEL, CL_INVALID_ARG_INDEX, CL_INVALID_ARG_VALUE, CL_INVALID_ARG_SIZE,
-               CL_INVALID_KERNEL_ARGS, CL_INVALID_WORK_DIMENSION, CL_INVALID_WORK_GROUP_SIZE, CL_INVALID_WORK_ITEM_SIZE,
-               CL_INVALID_OPERATION, CL_INVALID_BUFFER_SIZE, CL_INVALID_GLOBAL_WORK_SIZE, CL_INVALID_COMPILER_OPTIONS,
-               CL_INVALID_LINKER_OPTIONS)
-#undef NEPHROID_CODES
-
 std::string error_name(cl_int code)
 {
-  if (code == -1001) return "CL_PLATFORM_NOT_FOUND_KHR"; // cl_khr_icd; CL/cl_ext.h only
-  const auto place = std::ranges::find(codes, code) - std::begin(codes);
-  if (place == std::ssize(codes)) return fmt::format("OpenCL error {}", code);
-  std::istringstream names(code_names);
-  std::string name;
-  for (std::ptrdiff_t i = 0; i <= place; ++i) names >> name;
-  return name.substr(0, name.find(','));
+#define NEPHROID_NAME(name)                                                                                                                \
+  case name:                                                                                                                               \
+    return #name
+  switch (code) {
+    NEPHROID_NAME(CL_DEVICE_NOT_FOUND);
+    NEPHROID_NAME(CL_DEVICE_NOT_AVAILABLE);
+    NEPHROID_NAME(CL_COMPILER_NOT_AVAILABLE);
+    NEPHROID_NAME(CL_MEM_OBJECT_ALLOCATION_FAILURE);
+    NEPHROID_NAME(CL_OUT_OF_RESOURCES);
+    NEPHROID_NAME(CL_OUT_OF_HOST_MEMORY);
+    NEPHROID_NAME(CL_BUILD_PROGRAM_FAILURE);
+    NEPHROID_NAME(CL_MISALIGNED_SUB_BUFFER_OFFSET);
+    NEPHROID_NAME(CL_EXEC_STATUS_ERROR_FOR_EVENTS_IN_WAIT_LIST);
+    NEPHROID_NAME(CL_COMPILE_PROGRAM_FAILURE);
+    NEPHROID_NAME(CL_LINKER_NOT_AVAILABLE);
+    NEPHROID_NAME(CL_LINK_PROGRAM_FAILURE);
+    NEPHROID_NAME(CL_KERNEL_ARG_INFO_NOT_AVAILABLE);
+    NEPHROID_NAME(CL_INVALID_VALUE);
+    NEPHROID_NAME(CL_INVALID_PLATFORM);
+    NEPHROID_NAME(CL_INVALID_DEVICE);
+    NEPHROID_NAME(CL_INVALID_CONTEXT);
+    NEPHROID_NAME(CL_INVALID_COMMAND_QUEUE);
+    NEPHROID_NAME(CL_INVALID_MEM_OBJECT);
+    NEPHROID_NAME(CL_INVALID_BUILD_OPTIONS);
+    NEPHROID_NAME(CL_INVALID_PROGRAM);
+    NEPHROID_NAME(CL_INVALID_PROGRAM_EXECUTABLE);
+    NEPHROID_NAME(CL_INVALID_KERNEL_NAME);
+    NEPHROID_NAME(CL_INVALID_KERNEL);
+    NEPHROID_NAME(CL_INVALID_ARG_INDEX);
+    NEPHROID_NAME(CL_INVALID_ARG_VALUE);
+    NEPHROID_NAME(CL_INVALID_ARG_SIZE);
+    NEPHROID_NAME(CL_INVALID_KERNEL_ARGS);
+    NEPHROID_NAME(CL_INVALID_WORK_DIMENSION);
+    NEPHROID_NAME(CL_INVALID_WORK_GROUP_SIZE);
+    NEPHROID_NAME(CL_INVALID_WORK_ITEM_SIZE);
+    NEPHROID_NAME(CL_INVALID_OPERATION);
+    NEPHROID_NAME(CL_INVALID_BUFFER_SIZE);
+    NEPHROID_NAME(CL_INVALID_GLOBAL_WORK_SIZE);
+    NEPHROID_NAME(CL_INVALID_COMPILER_OPTIONS);
+    NEPHROID_NAME(CL_INVALID_LINKER_OPTIONS);
+  case -1001:
+    return "CL_PLATFORM_NOT_FOUND_KHR"; // cl_khr_icd; CL/cl_ext.h only
+  default:
+    return fmt::format("OpenCL error {}", code);
+  }
+#undef NEPHROID_NAME
 }
 
 Error call_failed(const cl::Error& error, const Place& where)
