@@ -13,9 +13,9 @@
 namespace nephroid::check {
 namespace {
 
-constexpr int stack = 64; ///< entries; more than any tree here needs
+constexpr int stack = 64; ///< entries: what nearly all trees of checks and tests need at most
 
-/// What a program is built for is the most that any scene here needs.
+/// Programs are built for what nearly all scenes need, and for more where one needs more.
 void share_programs(compute::Defines& defines)
 {
   const auto at_least = [&](const char* name, int value) { defines[name] = std::to_string(std::max(std::stoi(defines[name]), value)); };
@@ -87,9 +87,8 @@ std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::Lea
   return spectral::make_job(preset, scene, bvh, plan, context);
 }
 
-job::Snapshot render(preset::Preset preset, const compute::Context& context)
+job::Snapshot render(const preset::Preset& preset, const compute::Context& context)
 {
-  spectral::settings(preset).max_surfaces = 64;
   const auto job = general_job(preset, {}, context);
   while (!job->finished()) job->step();
   return job->snapshot();

@@ -22,7 +22,7 @@ namespace nephroid::check {
 std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context);
 
 /// general_job to the preset's end.
-job::Snapshot render(preset::Preset preset, const compute::Context& context);
+job::Snapshot render(const preset::Preset& preset, const compute::Context& context);
 
 /// The tables that the engine would render the preset with.
 spectral::RunTables device_tables(const preset::Preset& preset);
