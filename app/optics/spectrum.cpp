@@ -46,8 +46,8 @@ void require_no_negative_power(std::span<const Row> rows)
 /// A column by its name. Throws bad_input that lists the known names.
 LinearTable column(const Table& table, const char* kind, const std::string& name)
 {
-  const auto found = std::ranges::find(table.columns, name);
-  if (found != table.columns.end()) return LinearTable(table.rows(static_cast<std::size_t>(found - table.columns.begin())));
+  const auto place = std::ranges::find(table.columns, name);
+  if (place != table.columns.end()) return LinearTable(table.rows(static_cast<std::size_t>(place - table.columns.begin())));
   const std::string near = nearest(name, table.columns);
   throw bad_input({}, fmt::format("no {} is called \"{}\"", kind, name), fmt::format("expected one of {}", fmt::join(table.columns, ", ")),
                   near.empty() ? std::string{} : fmt::format("did you mean \"{}\"?", near));

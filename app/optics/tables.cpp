@@ -107,12 +107,12 @@ std::vector<Row> Table::rows(std::size_t column) const
 
 Table read_table(std::string_view name)
 {
-  const auto& all = embedded_tables();
-  const auto found = std::ranges::find_if(all, [&](const EmbeddedTable& t) { return t.name == name; });
-  if (found == all.end()) throw failed(std::string(name), "no such built-in table");
+  const auto& shipped = embedded_tables();
+  const auto embedded = std::ranges::find_if(shipped, [&](const EmbeddedTable& t) { return t.name == name; });
+  if (embedded == shipped.end()) throw failed(std::string(name), "no such built-in table");
 
   Table table;
-  for (std::string_view line : split(found->csv, '\n')) {
+  for (std::string_view line : split(embedded->csv, '\n')) {
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (line.empty()) continue;
     const std::vector<std::string_view> fields = split(line, ',');

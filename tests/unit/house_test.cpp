@@ -170,8 +170,8 @@ TEST(House, dependencies_are_found_in_one_place)
 {
   expect_no([](const fs::path& file) {
     if (file.begin()->string() == "third_party" || (file.extension() != ".cmake" && file.filename() != "CMakeLists.txt")) return "";
-    const auto found = names_in(text_of(root / file), R"(\b(find_package|pkg_check_modules|find_library|FetchContent_Declare)\()");
-    return found.empty() ? "" : "finds a dependency";
+    const auto packages = names_in(text_of(root / file), R"(\b(find_package|pkg_check_modules|find_library|FetchContent_Declare)\()");
+    return packages.empty() ? "" : "finds a dependency";
   });
 }
 

@@ -41,9 +41,9 @@ std::span<const PanelEntry> tabs() { return panel_table().subspan(1); }
 /// The tab in front; null where there is no such layout.
 const PanelEntry* front_tab(const std::string& name, const std::string& engine)
 {
-  const auto found =
+  const auto front =
       name.empty() ? std::ranges::find(tabs(), engine, &PanelEntry::front_for) : std::ranges::find(tabs(), name, &PanelEntry::name);
-  if (found != tabs().end() && (!name.empty() || !engine.empty())) return &*found;
+  if (front != tabs().end() && (!name.empty() || !engine.empty())) return &*front;
   return name.empty() ? &tabs().front() : nullptr;
 }
 

@@ -37,8 +37,8 @@ std::filesystem::path history_file(const std::filesystem::path& path)
 
 const PinnedRun* PinnedRuns::find(std::uint64_t id) const
 {
-  const auto found = std::ranges::find(runs_, id, &PinnedRun::id);
-  return found == runs_.end() ? nullptr : &*found;
+  const auto run = std::ranges::find(runs_, id, &PinnedRun::id);
+  return run == runs_.end() ? nullptr : &*run;
 }
 
 std::string PinnedRuns::own_name(const std::string& wanted, std::uint64_t id) const
