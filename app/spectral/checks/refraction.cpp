@@ -24,7 +24,7 @@ double z_of_transmitted(const compute::Context& context, preset::Preset p, doubl
   p.scene.camera.position = {0, 5, 0};
   p.scene.camera.up = {0, 0, -1};
   spectral::settings(p).photons_per_pass = photons;
-  const spectral::EnergyBalance e = spectral::energy_of(render(std::move(p), context));
+  const spectral::EnergyBalance e = spectral::energy_of(render(p, context));
   return (e.deposited_w / e.emitted_w - truth) / std::sqrt(truth * (1 - truth) / photons);
 }
 
