@@ -191,7 +191,7 @@ public:
 /// The text of every .cl file in the folder `folder` of kernels/ with all that they include, as this context would build it; empty where
 /// there is no such folder: an engine may have no kernels. Throws failed where it cannot be read.
 std::string kernel_sources(const Context& context, std::string_view folder);
-/// The text of a kernel source ("spectral/photons.cl") with everything that it includes, as this context would build it.
+/// The text of a kernel source ("photons/photons.cl") with everything that it includes, as this context would build it.
 std::string kernel_source(const Context& context, const std::string& file);
 /// When each file in a kernels folder was last written, so that somebody who watches it sees a change. Empty where it cannot be read. Knows
 /// no context: a thread may call it while another one builds programs.

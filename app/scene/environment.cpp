@@ -48,7 +48,7 @@ void mend_negative_texels(std::vector<float>& rgb, const std::string& name, std:
                                  counted(count, "value is", "values are"), below / above));
 }
 
-/// The film has 2^24 quanta for a mean texel (spectral/background_stage.cpp). Says where one or few texels are so much brighter
+/// The film has 2^24 quanta for a mean texel (photons/background_stage.cpp). Says where one or few texels are so much brighter
 /// than half of the others that those get fewer than 16. Values of 0 do not count: they are black in any film.
 void check_range(const std::vector<float>& rgb, const std::string& name, std::vector<std::string>& warnings)
 {

@@ -11,14 +11,14 @@ namespace {
 /// Every wavelength on its own, in steps of 1 nm whatever the run's are, and paths at least as long as by default. What changes no
 /// expected value (the threshold, photons a pass, what is left out) is the default's, so that runs that differ in it alone share a
 /// reference.
-Settings brute_force(const Settings& settings)
+photons::Settings brute_force(const photons::Settings& settings)
 {
-  Settings exact;
-  exact.method = Settings::Method::brute_force;
+  photons::Settings exact;
+  exact.method = photons::Settings::Method::brute_force;
   exact.step_nm = 1;
   exact.max_surfaces = std::max(exact.max_surfaces, settings.max_surfaces);
   // Photon maps have a radius, and the estimator sppm keeps to them: where splats do, they are the truth.
-  if (settings.estimator == Settings::Estimator::splat) exact.estimator = settings.estimator;
+  if (settings.estimator == photons::Settings::Estimator::splat) exact.estimator = settings.estimator;
   exact.direct = settings.direct;
   exact.caustic = settings.caustic;
   exact.indirect = settings.indirect;
@@ -30,10 +30,10 @@ preset::Settings reference(const preset::Preset& preset, int passes)
 {
   const auto& recipe = preset.reference->settings;
   preset::Settings settings = recipe ? *recipe : preset.settings;
-  Settings& s = settings.as<Settings>();
+  photons::Settings& s = settings.as<photons::Settings>();
   if (!recipe) s = brute_force(s);
-  s.smoothing = Settings::Smoothing::off; // it would be a bias
-  if (s.effort == Settings::Effort::automatic) s.effort = Settings::Effort::power;
+  s.smoothing = photons::Settings::Smoothing::off; // it would be a bias
+  if (s.effort == photons::Settings::Effort::automatic) s.effort = photons::Settings::Effort::power;
   s.pixel_samples = std::max(s.pixel_samples, passes); // the direct layer as well converged as the caustic
   return settings;
 }
@@ -70,10 +70,12 @@ constinit const engine::Engine engine{
     .settings = settings_type,
     .state_version = 8,
     .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) -> std::unique_ptr<plan::Plan> {
-      return std::make_unique<RunPlan>(make_plan(preset, scene, bvh));
+      return std::make_unique<photons::RunPlan>(make_plan(preset, scene, bvh));
     },
-    .job = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
-              const compute::Context& context) { return make_job(preset, scene, bvh, dynamic_cast<const RunPlan&>(plan), context); },
+    .job =
+        [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
+           const compute::Context& context) -> std::unique_ptr<job::Job> { return photons::make_job(preset, scene, bvh, dynamic_cast<const photons::RunPlan&>(plan), context);
+        },
     .reference = reference,
     .checks = closed_forms,
     .adoptable = adoptable,
@@ -86,6 +88,19 @@ constinit const engine::Engine engine{
               .run = "the same as files, in out/first-light"},
          .new_scene = {.preset = new_scene, .what = "A glass sphere on a floor under a lamp"},
          .badge = {70, 84, 120}}};
+
+photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
+{
+  return make_plan(preset, scene, bvh, {.all = preset.leave_out});
+}
+
+photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+                           const tracing::LeaveOut& leave_out)
+{
+  photons::RunPlan plan = photons::make_plan(preset, settings(preset), scene, bvh, leave_out);
+  plan.engine = "spectral";
+  return plan;
+}
 
 bool adoptable(const preset::Preset& before, const preset::Preset& now)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The settings of engine 1 as the preset knows them, and what one of their fields cannot say alone.
-#include "spectral/describe_settings.h"
+#include "photons/describe_settings.h"
 
 #include "base/error.h"
 #include "preset/settings_type.h"
@@ -13,19 +13,19 @@ namespace {
 using preset::Where;
 
 /// A cluster drawn at random needs a pass of its own, which sppm gives it; a variance is measured where all clusters share a film.
-void check_effort(const Settings& s, const std::string& pointer, const Where& where)
+void check_effort(const photons::Settings& s, const std::string& pointer, const Where& where)
 {
-  const bool sppm = s.estimator == Settings::Estimator::sppm;
-  if (s.effort == Settings::Effort::random && !sppm)
+  const bool sppm = s.estimator == photons::Settings::Estimator::sppm;
+  if (s.effort == photons::Settings::Effort::random && !sppm)
     throw bad_input(where(preset::child(pointer, "effort")), "random needs the estimator sppm", "expected spectral.estimator to be sppm",
                     "choose that, or another effort");
-  if (s.effort == Settings::Effort::variance && sppm)
+  if (s.effort == photons::Settings::Effort::variance && sppm)
     throw bad_input(where(preset::child(pointer, "effort")), "variance is not measured by the estimator sppm",
                     "expected another effort or estimator", "choose effort importance, or estimator automatic");
 }
 
 /// Layers hold what splats of whole clusters add up to.
-void check_relight(const preset::Preset& preset, const Settings& spectral, const Where& where)
+void check_relight(const preset::Preset& preset, const photons::Settings& spectral, const Where& where)
 {
   if (!spectral.relight) return;
   const auto refuse = [&](bool contradicts, const char* key, const char* reason) {
@@ -33,8 +33,8 @@ void check_relight(const preset::Preset& preset, const Settings& spectral, const
       throw bad_input(where(preset::child("/spectral", key)), fmt::format("cannot be kept in layers: {}", reason),
                       "expected 'spectral.relight' false, or this as it is by default");
   };
-  refuse(spectral.estimator == Settings::Estimator::sppm, "estimator", "photon maps add up colours, not layers");
-  refuse(spectral.effort != Settings::Effort::automatic && spectral.effort != Settings::Effort::power, "effort",
+  refuse(spectral.estimator == photons::Settings::Estimator::sppm, "estimator", "photon maps add up colours, not layers");
+  refuse(spectral.effort != photons::Settings::Effort::automatic && spectral.effort != photons::Settings::Effort::power, "effort",
          "half of the photons go by the present light's power, and half to every cluster alike for lights to come");
   refuse(spectral.differentials, "differentials", "a layer is a whole cluster's");
   refuse(spectral.indirect, "indirect", "its light met several reflectors");
@@ -45,11 +45,11 @@ void check_relight(const preset::Preset& preset, const Settings& spectral, const
 
 void check(const preset::Preset& preset, const Where& where)
 {
-  const Settings& own = settings(preset);
+  const photons::Settings& own = settings(preset);
   check_effort(own, "/spectral", where);
   if (preset.reference && preset.reference->settings)
-    check_effort(preset.reference->settings->as<Settings>(), "/reference/spectral", where);
-  if (preset.stop.error && !preset.reference && own.estimator == Settings::Estimator::sppm)
+    check_effort(preset.reference->settings->as<photons::Settings>(), "/reference/spectral", where);
+  if (preset.stop.error && !preset.reference && own.estimator == photons::Settings::Estimator::sppm)
     throw bad_input(where("/stop/error"), "nothing measures the error of this run: the estimator sppm makes no estimate of its own error",
                     "expected a 'reference', or another 'spectral.estimator'");
   check_relight(preset, own, where);
@@ -60,7 +60,7 @@ void check(const preset::Preset& preset, const Where& where)
 const preset::SettingsType& settings_type()
 {
   static const preset::SettingsType type =
-      preset::settings_type<Settings>("spectral", "Dispersion caustics by wavelength clusters.", check);
+      preset::settings_type<photons::Settings>("spectral", "Dispersion caustics by wavelength clusters.", check);
   return type;
 }
 

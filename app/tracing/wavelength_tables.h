@@ -40,7 +40,7 @@ WavelengthTables make_wavelength_tables(const scene::Scene& scene, const std::ve
                                         std::vector<shared::DeviceMaterial>& materials);
 
 /// Spectral differentials, the part that depends on wavelength alone: along which parameter s a splat is stretched, and where each
-/// wavelength lies on it (kernels/tracing/differential.h has the derivatives, kernels/spectral/stretch.h the splats).
+/// wavelength lies on it (kernels/tracing/differential.h has the derivatives, kernels/photons/stretch.h the splats).
 ///
 /// Where all glass that disperses follows one curve, s is its index of refraction n. A path's place is a much straighter function of n than
 /// of the wavelength, and wavelengths that share an n share a place, however far apart they are, so a cluster of an anomalous curve

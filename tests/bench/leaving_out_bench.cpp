@@ -20,9 +20,9 @@ public:
   Side(const preset::Preset& preset, const tracing::LeaveOut& leave_out, const compute::Context& context)
       : preset_(preset), leave_out_(leave_out), scene_(scene::load_scene(preset)), bvh_(scene::build_bvh(scene_.geometry))
   {
-    const spectral::RunPlan plan = spectral::make_plan(preset_, scene_, bvh_, leave_out_);
+    const photons::RunPlan plan = spectral::make_plan(preset_, scene_, bvh_, leave_out_);
     const double begin = processor_seconds();
-    job_ = spectral::make_job(preset_, scene_, bvh_, plan, context);
+    job_ = photons::make_job(preset_, scene_, bvh_, plan, context);
     for (int step = 0; step < 3 && !job_->finished(); ++step) job_->step(); // code is generated at a kernel's first use
     build_s_ = processor_seconds() - begin;
     if (!job_->finished()) pass();

@@ -2,7 +2,7 @@
 // Sorting a million photons of a unit square into the grid, and gathering 262144 points among them, for several edges of a cell in
 // units of the radius. `met`: photons read a point; `found`: those that count. Unbounded, with keys and whole numbers, against the
 // bounded grid and single-precision sums of a probe: 262144 points x 525 photons read in 19.5 ms, sorting in 17 to 30 ms.
-#include "spectral/maps/photon_map.h"
+#include "photons/maps/photon_map.h"
 #include "tests/support/test_kernels.h"
 
 #include <benchmark/benchmark.h>
@@ -17,7 +17,7 @@ constexpr std::uint32_t photons = 1 << 20, side = 512;
 constexpr float radius = 0.00745f;
 
 const char* const source = R"(
-#include "kernels/spectral/photon_map.h"
+#include "kernels/photons/photon_map.h"
 kernel void gather_all(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global float4* sums, uint count)
 {
   const uint i = get_global_id(0);
@@ -32,7 +32,7 @@ kernel void gather_all(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, 
 struct Scene {
   test::TestKernels kernels{source};
   compute::Context context = kernels.context();
-  spectral::PhotonMap map{context, photons};
+  photons::PhotonMap map{context, photons};
   compute::Buffer<VisiblePoint> points;
   compute::Buffer<shared::float4> sums{context, "sums", side* side};
 

@@ -24,7 +24,7 @@ struct Bench {
   {
     const scene::Scene scene = scene::load_scene(p);
     const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-    job = spectral::make_job(p, scene, bvh, spectral::make_plan(p, scene, bvh), context);
+    job = photons::make_job(p, scene, bvh, spectral::make_plan(p, scene, bvh), context);
   }
   const compute::Context context = compute::Context::open();
   std::unique_ptr<job::Job> job;
@@ -72,7 +72,7 @@ void picture(benchmark::State& state)
 {
   preset::Preset p = preset::read_preset("spectral/thesis/bunny");
   p.stop.passes = 8;
-  using Smoothing = spectral::Settings::Smoothing;
+  using Smoothing = photons::Settings::Smoothing;
   spectral::settings(p).smoothing = state.range(0) != 0 ? Smoothing::on : Smoothing::off;
   const Bench bench(p);
   job::Job* const job = bench.job.get();

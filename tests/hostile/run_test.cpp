@@ -173,10 +173,10 @@ TEST_F(Runs, RefuseCheckpointsOfAnotherDeviceOrOtherKernels)
   EXPECT_THAT(answer({}, {{"POCL_DEVICES", "basic"}}), HasSubstr("checkpoint.bin: was written on another device"));
   const fs::path kernels = scratch.path() / "kernels";
   fs::copy(nephroid::test::kernel_folder(), kernels, fs::copy_options::recursive);
-  const std::string photons = read_file(kernels / "spectral/photons.cl");
-  write_file_whole(kernels / "spectral/photons.cl", photons + "// other text\n");
+  const std::string photons = read_file(kernels / "photons/photons.cl");
+  write_file_whole(kernels / "photons/photons.cl", photons + "// other text\n");
   EXPECT_THAT(answer({"--kernels", kernels.string()}), HasSubstr("checkpoint.bin: was written with other kernels"));
-  write_file_whole(kernels / "spectral/photons.cl", photons);
+  write_file_whole(kernels / "photons/photons.cl", photons);
   EXPECT_EQ(run("a", {"--passes", "4", "--resume", "--kernels", kernels.string()}).exit_code, 0) << "the same text from another place";
 }
 

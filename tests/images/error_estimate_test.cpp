@@ -5,6 +5,7 @@
 #include "tests/support/test.h"
 
 #include "preset/read.h"
+#include "spectral/engine.h"
 #include "tests/support/render.h"
 
 #include <tuple>
@@ -38,8 +39,8 @@ Ended run_measured(const preset::Preset& preset)
 {
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  const spectral::RunPlan plan = spectral::make_plan(preset, scene, bvh);
-  const auto job = measure::measured(spectral::make_job(preset, scene, bvh, plan, test::shared_context()), preset, nullptr);
+  const photons::RunPlan plan = spectral::make_plan(preset, scene, bvh);
+  const auto job = measure::measured(photons::make_job(preset, scene, bvh, plan, test::shared_context()), preset, nullptr);
   while (!job->finished()) job->step();
   const job::Snapshot snapshot = job->snapshot();
   return {snapshot.picture->rgb, *snapshot.history};

@@ -2,6 +2,7 @@
 // Every shipped preset makes a picture with the general kernels: finite, lit, its layers adding up, its energy accounted for, and noise
 // falling as it should. statistics_test.cpp renders with those of the scene.
 #include "preset/read.h"
+#include "spectral/settings.h"
 #include "tests/support/render.h"
 #include "tests/support/test.h"
 
@@ -22,7 +23,7 @@ preset::Preset small(const std::string& name)
   preset::Preset p = preset::read_presets(name).front();
   p.scene.camera.resolution = {64, 64};
   // Progressive photon maps send these for each of up to 401 clusters.
-  const bool for_each_cluster = spectral::settings(p).estimator == spectral::Settings::Estimator::sppm;
+  const bool for_each_cluster = spectral::settings(p).estimator == photons::Settings::Estimator::sppm;
   spectral::settings(p).photons_per_pass = for_each_cluster ? 1 << 8 : 1 << 15;
   p.stop.seconds.reset();
   p.stop.passes = 2;
@@ -45,7 +46,7 @@ TEST_P(ShippedPreset, MakesASoundPicture)
     for (const job::Layer& one : picture.layers) total += one.rgb[i];
     ASSERT_EQ(picture.rgb[i], total);
   }
-  const spectral::EnergyBalance& e = spectral::energy_of(snapshot);
+  const photons::EnergyBalance& e = photons::energy_of(snapshot);
   EXPECT_GT(e.emitted_w, 0);
   for (const double part : {e.deposited_w, e.missed_w, e.absorbed_w, e.escaped_w, e.lost_w}) EXPECT_GE(part, 0);
   // A photon is counted as it starts and as it ends, in quanta of power: the balance is exact but for the rounding of the sums to watts.

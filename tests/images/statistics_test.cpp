@@ -2,6 +2,7 @@
 // Five small scenes against stored means and variances of the same rendering with other seeds: who changes a kernel sees whether a
 // picture changed by more than its noise, or its noise did. README.md beside this file: how the stored pictures are made.
 #include "preset/read.h"
+#include "spectral/engine.h"
 #include "tests/support/render.h"
 #include "tests/support/stored_statistics.h"
 
@@ -19,10 +20,10 @@ void make_small(preset::Preset& p)
   spectral::settings(p).photons_per_pass = 1 << 13;
   spectral::settings(p).pixel_samples = 16;
   spectral::settings(p).direct = true;
-  spectral::settings(p).estimator = spectral::Settings::Estimator::splat;
+  spectral::settings(p).estimator = photons::Settings::Estimator::splat;
   spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = false;
-  spectral::settings(p).effort = spectral::Settings::Effort::power;
-  spectral::settings(p).smoothing = spectral::Settings::Smoothing::off;
+  spectral::settings(p).effort = photons::Settings::Effort::power;
+  spectral::settings(p).smoothing = photons::Settings::Smoothing::off;
   p.stop = {};
   p.stop.passes = 16;
   p.white = 1;
@@ -155,7 +156,7 @@ public:
   job::Snapshot render(std::uint64_t seed)
   {
     preset_.seed = seed;
-    const auto job = spectral::make_job(preset_, scene_, bvh_, plan_, shared_context());
+    const auto job = photons::make_job(preset_, scene_, bvh_, plan_, shared_context());
     while (!job->finished()) job->step();
     return job->snapshot();
   }
@@ -165,7 +166,7 @@ private:
   preset::Preset preset_;
   scene::Scene scene_;
   scene::Bvh bvh_;
-  spectral::RunPlan plan_;
+  photons::RunPlan plan_;
 };
 
 std::filesystem::path stored_file(const std::string& name)
@@ -209,7 +210,7 @@ TEST_P(StoredPicture, HasTheStoredMeanAndVariance)
   const StoredStatistics stored = read_statistics(stored_file(GetParam().name));
   const job::Snapshot snapshot = Renderer(GetParam().preset()).render(fresh_seed);
   const Comparison comparison = compare(to_xyz(snapshot.picture->rgb), stored);
-  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
   EXPECT_GT(comparison.block_p, false_alarm) << comparison.worst;
   EXPECT_GT(comparison.z2_p, false_alarm) << "mean of clipped z^2 " << comparison.z2 << ", stored " << stored.mean_z2 << " +- "
                                           << stored.standard_deviation_z2;

@@ -204,7 +204,7 @@ TEST_F(EditedKernels, AnEngineMayHaveNone)
 {
   const Context context = open();
   fs::create_directory(folder() / "spectral");
-  write("spectral/test.cl", "// a kernel\n");
+  write("photons/test.cl", "// a kernel\n");
   EXPECT_THAT(compute::kernel_sources(context, "spectral"), HasSubstr("// a kernel"));
   EXPECT_EQ(compute::kernel_sources(context, "inverse"), "");
   fs::create_symlink("loop", folder() / "loop");

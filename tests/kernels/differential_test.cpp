@@ -14,6 +14,7 @@ constexpr int steps = 24; // surfaces of a path
 
 const char* const source = R"(#include "kernels/tracing/world.h"
 #include "kernels/tracing/random.h"
+#include "spectral/engine.h"
 #define STEPS 24
 // What each ray meets: triangle * 4 + (0: ends there, 1: reflected, 2: transmitted), and place, direction and their derivatives after that.
 __kernel void follow(WORLD_ARGUMENTS, __global const float* rays, __global const int* clusters, uint2 seed, __global uint* meets,
@@ -64,7 +65,7 @@ struct Followed {
 
 struct Lab {
   scene::Scene scene;
-  spectral::RunTables tables;
+  photons::RunTables tables;
   tracing::World world;
   compute::Kernel kernel;
 };
@@ -81,7 +82,7 @@ std::unique_ptr<Lab> make_lab(const preset::Preset& preset)
   auto lab = std::make_unique<Lab>();
   lab->scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(lab->scene.geometry);
-  lab->tables = spectral::make_lit_tables(preset, lab->scene, bvh, {});
+  lab->tables = photons::make_lit_tables(spectral::settings(preset), lab->scene, bvh, {});
   lab->world = tracing::make_world(kernels().context(), lab->scene, bvh, lab->tables, {}, 1);
   compute::Defines defines = spectral::make_plan(preset, lab->scene, bvh).defines;
   defines["NEPHROID_DIFFERENTIALS"] = "1";
@@ -142,7 +143,7 @@ preset::Preset room()
   p.scene.objects = {object("room", box(20, 20, 20), "wall")};
   p.scene.lights.resize(1);
   p.scene.lights[0].position = {0, 6, 0};
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   spectral::settings(p).differentials = true;
   return p;
 }
@@ -252,7 +253,7 @@ struct DifferentialCase {
 class Differential : public testing::TestWithParam<DifferentialCase> {};
 
 /// n of every material where s is larger by ds than in the cluster.
-std::vector<double> indices(const spectral::RunTables& tables, int cluster, double ds)
+std::vector<double> indices(const photons::RunTables& tables, int cluster, double ds)
 {
   const std::size_t materials = static_cast<std::size_t>(tables.scene.material_count), row = static_cast<std::size_t>(cluster) * materials;
   std::vector<double> n;
@@ -264,7 +265,7 @@ std::vector<double> indices(const spectral::RunTables& tables, int cluster, doub
 TEST_P(Differential, IsWhatFiniteDifferencesOfTheSamePathGive)
 {
   const auto lab = make_lab(GetParam().preset());
-  const spectral::RunTables& tables = lab->tables;
+  const photons::RunTables& tables = lab->tables;
   const PathReference reference(lab->scene);
   // Of n, or of nanometres, each of which is some 10^-4 of n.
   const double h = tracing::stretch_parameter(lab->scene) == tracing::StretchParameter::index ? 1e-6 : 1e-2;
@@ -316,7 +317,7 @@ TEST(PrismDifferential, IsTheAngularDispersionAtMinimumDeviation)
   preset::Preset p = room();
   p.scene.objects.push_back(object("prism", prism_shape(60), "flint"));
   const auto lab = make_lab(p);
-  const spectral::RunTables& tables = lab->tables;
+  const photons::RunTables& tables = lab->tables;
   // The prism's axis is y and its apex points to +z; light goes towards +x and is bent to -z.
   const double half_apex = std::numbers::pi / 6;
   std::vector<Ray64> rays;

@@ -2,7 +2,7 @@
 // kernels/tracing/random.h against the published test vectors of its generator. samplers_test.cpp tests the distribution of its uniforms.
 // Low-discrepancy sequences, and the guide of emission.
 #include "kernels/tracing/shared_types.h"
-#include "spectral/effort/emitters.h"
+#include "photons/effort/emitters.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
 #include "tracing/world.h"
@@ -30,14 +30,14 @@ TEST(Random, PhiloxGivesThePublishedVectors)
   EXPECT_EQ(out.read(), published);
 }
 
-// kernels/tracing/low_discrepancy.h and what kernels/spectral/photon_path.h makes of it: what Owen's scrambling keeps of a Sobol sequence
+// kernels/tracing/low_discrepancy.h and what kernels/photons/photon_path.h makes of it: what Owen's scrambling keeps of a Sobol sequence
 // is exact and is tested so; that other keys give independent sequences is tested by chi-square.
 
 const char* const source = R"(
 #include "kernels/tracing/film.h"
 #include "kernels/tracing/random.h"
-#include "kernels/spectral/guide.h"
-#include "kernels/spectral/photon_path.h"
+#include "kernels/photons/guide.h"
+#include "kernels/photons/photon_path.h"
 // How many photons of a pass fall into each of 401 equal parts of their clusters, of emitters of at most `largest` photons.
 __kernel void wavelengths(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights, uint2 seed,
                           uint pass, uint photons, uint largest, volatile __global uint* hits)
@@ -166,7 +166,7 @@ TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
     std::vector<shared::DeviceEmitter> emitters(clusters + 1);
     for (shared::DeviceEmitter& e : emitters) e.photon_count = small;
     emitters.back().photon_count = photons - small * clusters;
-    spectral::number_photons(emitters);
+    photons::number_photons(emitters);
     const auto table = compute::Buffer(kernels().context(), "emitters", emitters);
     const compute::Buffer<shared::DeviceLight> lights = compute::Buffer(kernels().context(), "lights", std::vector<shared::DeviceLight>(1));
     compute::Buffer<std::uint32_t> hits(kernels().context(), "hits", 401);
@@ -190,13 +190,13 @@ TEST(LowDiscrepancy, WavelengthsOfSmallClustersAreFine)
   }
 }
 
-// kernels/spectral/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they
+// kernels/photons/guide.h: numbers are drawn from a learned histogram as its chances say, and what they are drawn more often is what they
 // count less.
 
 constexpr std::size_t cells = GUIDE_CELLS;
 
 /// A guide that has learned from cells of very different moments: from two that have all to a slope over x, y and z.
-spectral::EmissionGuide learned_guide()
+photons::EmissionGuide learned_guide()
 {
   std::vector<std::int64_t> moments(cells);
   for (std::size_t c = 0; c < cells; ++c) {
@@ -204,7 +204,7 @@ spectral::EmissionGuide learned_guide()
     moments[c] = x % 3 == 1 ? 0 : static_cast<std::int64_t>((x + 1) * (y + 2) * (y + 2) * (1 + 9 * (z == 4)));
   }
   moments[77] = 4'000'000;
-  spectral::EmissionGuide guide(1);
+  photons::EmissionGuide guide(1);
   guide.learn(moments, std::vector<double>{100000}, 1);
   return guide;
 }
@@ -312,7 +312,7 @@ TEST(Guide, ThatIsEvenMovesNothing)
     const auto number = [&](int step) { return static_cast<float>((i * step + 12345) & 0xffffff) * 0x1p-24f; };
     numbers.push_back({number(4099), number(7919 * 3), number(104729), 0});
   }
-  const std::vector<Point> after = moved(spectral::EmissionGuide(1).table(), numbers);
+  const std::vector<Point> after = moved(photons::EmissionGuide(1).table(), numbers);
   for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(after[i], (Point{numbers[i][0], numbers[i][1], numbers[i][2], 1}));
 }
 
@@ -325,7 +325,7 @@ TEST(Guide, StaysBelowOne)
     for (const float y : ends)
       for (const float z : ends) numbers.push_back({x, y, z, 0});
   for (const std::size_t bright : {std::size_t{0}, cells / 2, cells - 1}) {
-    spectral::EmissionGuide guide(1);
+    photons::EmissionGuide guide(1);
     std::vector<std::int64_t> moments(cells, 0);
     moments[bright] = std::int64_t{1} << 60;
     guide.learn(moments, std::vector<double>{1000}, 1);

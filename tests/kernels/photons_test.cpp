@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/film.h: sums are exact, whatever the order and whichever atomics the device has. Photons against an independent tracer;
 // photon maps.
-#include "spectral/maps/photon_map.h"
+#include "photons/maps/photon_map.h"
+#include "spectral/settings.h"
 #include "tests/support/reference_photons.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
@@ -57,7 +58,7 @@ TEST(Film, RefusesWhatDoesNotFit)
   EXPECT_EQ(std::vector<std::int64_t>(sums.begin() + 18, sums.begin() + 21), (std::vector<std::int64_t>{0, 0, 2})); // ties to even
 }
 
-// kernels/spectral/photons.cl against an independent tracer on Embree, pixel by pixel within the noise of both.
+// kernels/photons/photons.cl against an independent tracer on Embree, pixel by pixel within the noise of both.
 
 /// A smooth ball, a diamond and a mirror above a coloured floor, of dispersive glass; a point light.
 preset::Preset glass_preset()
@@ -136,7 +137,7 @@ TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
   for (int run = 0; run < runs; ++run) {
     p.seed = static_cast<std::uint64_t>(run + 1);
     const job::Snapshot snapshot = render(p);
-    absorbed = spectral::energy_of(snapshot).absorbed_w / spectral::energy_of(snapshot).emitted_w;
+    absorbed = photons::energy_of(snapshot).absorbed_w / photons::energy_of(snapshot).emitted_w;
     const job::Layer& caustic = layer(snapshot, "caustic");
     for (std::size_t i = 0; i < values; i += 3) {
       const optics::Colour xyz = optics::linear_srgb_to_xyz({caustic.rgb[i], caustic.rgb[i + 1], caustic.rgb[i + 2]});
@@ -149,7 +150,7 @@ TEST_P(PhotonKernel, AgreesWithAnIndependentTracerInEveryPixel)
   for (Moments& m : kernel) m.variance_of_mean = std::max(m.variance_of_mean - m.mean * m.mean, 0.0) / (runs - 1);
 
   const scene::Scene scene = scene::load_scene(p);
-  const spectral::RunTables tables = spectral::make_lit_tables(p, scene, scene::build_bvh(scene.geometry), {});
+  const photons::RunTables tables = photons::make_lit_tables(spectral::settings(p), scene, scene::build_bvh(scene.geometry), {});
   constexpr int photons = 1'500'000;
   const ReferenceFilm film = ReferencePhotons(scene, tables, 99).trace(photons);
 
@@ -194,10 +195,10 @@ TEST(Photons, SameSeedSameBitsAnotherSeedNot)
   EXPECT_NE(first.picture->rgb, render(p).picture->rgb);
 }
 
-// kernels/spectral/photon_map.h and grid.cl against a sum over all photons: the same whole numbers, whatever order the photons came in.
+// kernels/photons/photon_map.h and grid.cl against a sum over all photons: the same whole numbers, whatever order the photons came in.
 
 const char* const source = R"(
-#include "kernels/spectral/photon_map.h"
+#include "kernels/photons/photon_map.h"
 typedef long4 Sum;
 kernel void gather_all(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global Sum* sums, uint count)
 {
@@ -263,7 +264,7 @@ protected:
   static std::vector<Sum> gather(const std::vector<StoredPhoton>& photons, const std::vector<VisiblePoint>& points, double cell)
   {
     static const test::TestKernels kernels(source);
-    spectral::PhotonMap map(kernels.context(), static_cast<std::uint32_t>(photons.size()));
+    photons::PhotonMap map(kernels.context(), static_cast<std::uint32_t>(photons.size()));
     map.stored().write(photons);
     map.build(cell, map.slots());
     const compute::Buffer<VisiblePoint> at(kernels.context(), "points", std::span<const VisiblePoint>(points));

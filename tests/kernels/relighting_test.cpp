@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers weighed by a light are the picture under that light: against runs without layers, in a scene with dispersion, several reflectors,
 // an edge in most pixels' reach, glass before the camera and a dark lamp.
-#include "spectral/clusters/clusters.h"
+#include "photons/clusters/clusters.h"
+#include "spectral/settings.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
@@ -145,7 +146,7 @@ TEST(Relighting, ThroughADyeItIsThatOfARunWithThatLight)
     const std::vector<Estimate> relit = relit_passes(own, other), truth = render_passes(fresh_run(other), both_layers),
                                 undyed = render_passes(clear, both_layers);
     // Clusters promise that a line is not off by more than this share of what arrives without the dye, and smooth light by far less.
-    const double share = wavelength_nm > 0 ? spectral::largest_loss_difference : 0.005;
+    const double share = wavelength_nm > 0 ? photons::largest_loss_difference : 0.005;
     std::vector<double> bias;
     for (const Estimate& e : undyed) bias.push_back(share * std::abs(e.mean));
     EXPECT_GT(same_expectations(relit, truth, bias), false_alarm) << wavelength_nm;
@@ -162,12 +163,12 @@ TEST(Relighting, TheRunGoesOnUnderTheNewLightAndItsEnergyIsThatLights)
   const auto job = job_of(layered(tiled_scene()));
   while (job->progress().step < 3) job->step();
   ASSERT_TRUE(job->adopt(other));
-  EXPECT_EQ(spectral::energy_of(job->snapshot()).emitted_w, 0) << "nothing has been sent under the new light yet";
+  EXPECT_EQ(photons::energy_of(job->snapshot()).emitted_w, 0) << "nothing has been sent under the new light yet";
   while (!job->finished()) job->step();
   preset::Preset fresh = other;
   spectral::settings(fresh).relight = false;
   const job::Snapshot relit = job->snapshot(), truth = render(fresh);
-  const spectral::EnergyBalance &e = spectral::energy_of(relit), &t = spectral::energy_of(truth);
+  const photons::EnergyBalance &e = photons::energy_of(relit), &t = photons::energy_of(truth);
   // Point lamps' photons differ little in power, and of 21 x 2^13 at least a tenth reach the floor through the ball: a standard error
   // of less than 1 %.
   EXPECT_NEAR(e.emitted_w / t.emitted_w, 1, 0.07);
@@ -220,7 +221,7 @@ TEST(Relighting, ACheckpointGoesOnToTheSameBits)
   test::load(*resumed, saved);
   const job::Snapshot a = render(*straight), b = render(*resumed);
   EXPECT_EQ(a.picture->rgb, b.picture->rgb);
-  EXPECT_EQ(spectral::energy_of(a).emitted_w, spectral::energy_of(b).emitted_w);
+  EXPECT_EQ(photons::energy_of(a).emitted_w, photons::energy_of(b).emitted_w);
 }
 
 TEST(Relighting, OnlyTheLightIsAdopted)
@@ -234,7 +235,7 @@ TEST(Relighting, OnlyTheLightIsAdopted)
   broken.scene.lights[0].spectrum.illuminant = "D66";
   EXPECT_THROW(job->adopt(broken), Error);
   while (job->progress().step < 1) job->step();
-  EXPECT_EQ(spectral::energy_of(job->snapshot()).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(job->snapshot()).refused_contributions, 0u);
 }
 
 TEST(Relighting, ASceneThatShowsNothingCanBeAskedForLayers)
@@ -251,7 +252,7 @@ TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory)
 {
   preset::Preset p = layered(tiled_scene());
   p.scene.camera.resolution = {128, 128};
-  const spectral::RunPlan plan = plan_of(p);
+  const photons::RunPlan plan = plan_of(p);
   const auto job = job_as_it_is(p);
   EXPECT_THAT(plan.passes, Not(Contains(testing::Field(&plan::Pass::name, "dark lights")))) << "it is kept";
   EXPECT_THAT(plan.passes, Contains(testing::Field(&plan::Pass::name, "relighting")));

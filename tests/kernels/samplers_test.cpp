@@ -12,7 +12,7 @@ using shared::float4;
 
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
-#include "kernels/spectral/direct.cl"
+#include "kernels/photons/direct.cl"
 
 kernel void uniforms(uint2 seed, uint pass, uint block, uint stream, global float4* out, uint count)
 {

@@ -3,6 +3,7 @@
 // plate, and Snell's law in a prism that takes white light apart.
 #include "image/image.h"
 #include "optics/fresnel.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 

@@ -2,6 +2,7 @@
 // The environment as a light: colours and irradiance of a map against sums over its texels, one hot texel against directional light of the
 // same irradiance, the balance of energy, and runs that go on with the same bits. White furnaces under a sky: white_furnace_test.cpp.
 #include "image/image.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
@@ -207,7 +208,7 @@ TEST(EnvironmentLight, EnergyIsAccountedFor)
   p.scene.environment = sky_of({1, 1, 1}, 3);
   spectral::settings(p).direct = false;
   p.stop.passes = 2;
-  const spectral::EnergyBalance e = spectral::energy_of(render(p));
+  const photons::EnergyBalance e = photons::energy_of(render(p));
   double watts = 0;
   for (const optics::Spectrum& primary : optics::primary_spectra()) watts += std::accumulate(primary.begin(), primary.end(), 0.0);
   expect_truth("environment light, sent towards a ball, over its closed form", e.emitted_w / (4 * M_PI * 3 * watts * M_PI * 0.25), 1, 1e-4);
@@ -230,9 +231,9 @@ preset::Preset whole(const TemporaryFolder& folder)
   p.scene.camera.position = {0, 1, 4};
   spectral::settings(p).background = true;
   spectral::settings(p).indirect = true;
-  spectral::settings(p).estimator = spectral::Settings::Estimator::automatic;
-  spectral::settings(p).effort = spectral::Settings::Effort::automatic;
-  spectral::settings(p).smoothing = spectral::Settings::Smoothing::automatic;
+  spectral::settings(p).estimator = photons::Settings::Estimator::automatic;
+  spectral::settings(p).effort = photons::Settings::Effort::automatic;
+  spectral::settings(p).smoothing = photons::Settings::Smoothing::automatic;
   spectral::settings(p).low_discrepancy = true;
   spectral::settings(p).photons_per_pass = 1 << 12;
   spectral::settings(p).indirect_photons_per_pass = 1 << 10;

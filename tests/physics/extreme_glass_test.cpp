@@ -2,7 +2,7 @@
 // Extreme materials: indices of refraction at and around 1 and far from it, curves with steps and poles, absorption without end, nested and
 // total reflection. docs/notebook/extremes.md has the table.
 #include "optics/fresnel.h"
-#include "spectral/clusters/clusters.h"
+#include "photons/clusters/clusters.h"
 #include "tests/support/extremes.h"
 
 namespace nephroid::extreme_glass_test {
@@ -75,7 +75,7 @@ std::size_t clusters_of(const preset::Material& material, double threshold_deg)
   p.scene.materials["glass"] = material;
   const scene::Scene scene = scene::load_scene(p);
   for (const scene::Material& m : scene.materials)
-    if (m.name == "glass") return spectral::cluster_wavelengths(m.n, threshold_deg, spectral::ClusterMethod::optimal).clusters.size();
+    if (m.name == "glass") return photons::cluster_wavelengths(m.n, threshold_deg, photons::ClusterMethod::optimal).clusters.size();
   return 0;
 }
 
@@ -98,7 +98,7 @@ Outcome absorbing_plate(double k)
   m.dispersion.file = write_constant_nk(folder.path() / "glass.yml", 1.5, k);
   p.scene.materials["glass"] = m;
   const double tau = std::exp(-4 * M_PI * k * 2e-3 / 550e-9), r = 0.04, truth = (1 - r) * (1 - r) * tau / (1 - r * r * tau * tau);
-  const spectral::EnergyBalance e = spectral::energy_of(render(p));
+  const photons::EnergyBalance e = photons::energy_of(render(p));
   const double back = r + (1 - r) * (1 - r) * r * tau * tau / (1 - r * r * tau * tau);
   return both(share(e.deposited_w / e.emitted_w, truth, photons), share(e.absorbed_w / e.emitted_w, 1 - truth - back, photons));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme lights and mirrors: powers from 1e-30 W, beams of 0.01 degrees, lights in glass and on it, rectangles of every size, reflectances
 // of 0 and 1. docs/notebook/extremes.md has the table.
+#include "spectral/settings.h"
 #include "tests/support/extremes.h"
 
 namespace nephroid::extreme_lights_test {
@@ -14,7 +15,7 @@ Outcome power_scales(double watts)
   const job::Snapshot truth = render(p);
   p.scene.lights[0].power_w = watts;
   const job::Snapshot gave = render(p);
-  EXPECT_EQ(spectral::energy_of(gave).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(gave).refused_contributions, 0u);
   return at_most(largest_difference(gave.picture->rgb, truth.picture->rgb, 1 / watts), 1e-6);
 }
 
@@ -166,7 +167,7 @@ const std::vector<Extreme> extremes = {
        p.scene.objects.push_back(object("plate", box(1, 0.1, 1), "glass"));
        p.scene.objects.push_back(object("wall", quad(100, 100), "white", at({5, 0, 0}, {0, 0, 90})));
        p.scene.lights = {parallel_light({1, 0, 0})};
-       const spectral::EnergyBalance e = spectral::energy_of(render(p));
+       const photons::EnergyBalance e = photons::energy_of(render(p));
        // 1 m x 0.1 m of edge, T = (1 - R) / (1 + R), and the floor is never reached.
        return near(e.deposited_w, 0.1 * 0.96 / 1.04, 0.007);
      }},
@@ -198,7 +199,7 @@ const std::vector<Extreme> extremes = {
        preset::Preset p = beam({0.01, 2, 0.02}, {0, -1, 0});
        p.scene.materials["mirror"] = mirror(0);
        p.scene.objects.push_back(object("mirror", quad(1, 1), "mirror"));
-       const spectral::EnergyBalance e = spectral::energy_of(render(p));
+       const photons::EnergyBalance e = photons::energy_of(render(p));
        return exactly(e.absorbed_w / e.emitted_w, 1);
      }},
     {"HallOfMirrors", "two parallel mirrors of 0.9, 32 surfaces", "0.9^32 is left and lost",
@@ -207,7 +208,7 @@ const std::vector<Extreme> extremes = {
        p.scene.materials["mirror"] = mirror(0.9);
        spectral::settings(p).max_surfaces = 32;
        for (const double y : {-0.5, 0.5}) p.scene.objects.push_back(object("", quad(1, 1), "mirror", at({0, y, 0})));
-       const spectral::EnergyBalance e = spectral::energy_of(render(p));
+       const photons::EnergyBalance e = photons::energy_of(render(p));
        return near(e.lost_w / e.emitted_w, std::pow(0.9, 32), 1e-6);
      }},
     {"HallOfPerfectMirrors", "two perfect parallel mirrors, 1024 surfaces", "everything is left and lost",
@@ -216,7 +217,7 @@ const std::vector<Extreme> extremes = {
        spectral::settings(p).photons_per_pass = 1 << 12;
        spectral::settings(p).max_surfaces = 1024;
        for (const double y : {-0.5, 0.5}) p.scene.objects.push_back(object("", quad(1, 1), "mirror", at({0, y, 0})));
-       const spectral::EnergyBalance e = spectral::energy_of(render(p));
+       const photons::EnergyBalance e = photons::energy_of(render(p));
        return exactly(e.lost_w / e.emitted_w, 1);
      }},
     {"OneSurface", "max_surfaces 1 for a plate", "R goes back, the rest is lost",
@@ -224,7 +225,7 @@ const std::vector<Extreme> extremes = {
        preset::Preset p = beam({0.01, 2, 0.02}, {0, -1, 0});
        spectral::settings(p).max_surfaces = 1;
        p.scene.objects.push_back(object("plate", box(1, 0.1, 1), "glass"));
-       const spectral::EnergyBalance e = spectral::energy_of(render(p));
+       const photons::EnergyBalance e = photons::energy_of(render(p));
        return share(e.lost_w / e.emitted_w, 0.96, photons);
      }},
     {"Diamond", "n = 2.42, a prism that sends light back: total reflection", "R + (1 - R)^2 + ... comes back: nothing gets through",

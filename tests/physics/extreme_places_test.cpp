@@ -2,6 +2,7 @@
 // Extreme places and shapes: scenes of any size, far from the origin, tiny objects beside large ones, thin plates, needles, meshes that are
 // open, doubled, inside out or inside each other. docs/notebook/extremes.md has the table.
 #include "optics/fresnel.h"
+#include "spectral/settings.h"
 #include "tests/support/extremes.h"
 #include "tests/support/meshes.h"
 
@@ -34,7 +35,7 @@ preset::Preset ball(double size, double shift = 0)
 Outcome same_picture(const preset::Preset& p, double tolerance)
 {
   const job::Snapshot truth = render(ball(1)), snapshot = render(p);
-  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
   return at_most(largest_difference(snapshot.picture->rgb, truth.picture->rgb), tolerance);
 }
 

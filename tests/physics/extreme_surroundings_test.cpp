@@ -2,6 +2,7 @@
 // Extreme surroundings: backgrounds from 1e-30 to 1e9 and with one bright texel, bad texels, walls that reflect nothing, nearly all and
 // all, glass that absorbs all, single pixels and photons. docs/notebook/extremes.md has the table.
 #include "image/image.h"
+#include "spectral/settings.h"
 #include "tests/support/extreme_waves.h"
 
 namespace nephroid::extreme_surroundings_test {
@@ -27,7 +28,7 @@ preset::Preset ball_before_sky(double radiance, int pixels = 8)
 Outcome radiance_scales(double radiance)
 {
   const job::Snapshot gave = render(ball_before_sky(radiance)), right = render(ball_before_sky(1));
-  EXPECT_EQ(spectral::energy_of(gave).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(gave).refused_contributions, 0u);
   return at_most(largest_difference(gave.picture->rgb, right.picture->rgb, 1 / radiance), 1e-6);
 }
 
@@ -64,7 +65,7 @@ Outcome into(float texel, double tolerance)
   p.scene.camera.up = {0, 0, -1};
   p.scene.camera.fov_deg = 0.01;
   const job::Snapshot snapshot = render(p);
-  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
   return near(mean_xyz(snapshot, "background")[1] / double(texel), 1, tolerance);
 }
 

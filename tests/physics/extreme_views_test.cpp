@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme views and settings: counts of one and far too many, pictures of one pixel and of 1 x 4096, telescopes, cameras in glass, in a
 // mirror, in a surface and close to it, any white. docs/notebook/extremes.md has the table.
+#include "spectral/settings.h"
 #include "tests/support/extreme_waves.h"
 
 namespace nephroid::extreme_views_test {
 
-using Estimator = spectral::Settings::Estimator;
-using Effort = spectral::Settings::Effort;
+using Estimator = photons::Settings::Estimator;
+using Effort = photons::Settings::Effort;
 
 /// Looking at a wall from far away through a telescope: the picture of a white square of 1 m on black, which fills half of it.
 Outcome telescope(double distance)

@@ -2,13 +2,14 @@
 // Extreme ways to deal with wavelengths: one cluster and 401, efforts that have nothing to choose from, curves that jump at every
 // nanometre, photons one at a time and lights by the thousand, streaks at grazing incidence and beside total reflection, layers for any
 // light. docs/notebook/extremes.md has the table.
-#include "spectral/clusters/clusters.h"
+#include "photons/clusters/clusters.h"
+#include "spectral/settings.h"
 #include "tests/support/extreme_waves.h"
 
 namespace nephroid::extreme_wavelengths_test {
 
-using Effort = spectral::Settings::Effort;
-using Method = spectral::Settings::Method;
+using Effort = photons::Settings::Effort;
+using Method = photons::Settings::Method;
 
 /// Every wavelength on its own, each with as many photons, without jitter, by plain random numbers.
 preset::Preset one_by_one(preset::Preset p)
@@ -37,7 +38,7 @@ preset::Preset in_clusters(double threshold_deg, Effort effort = Effort::power)
   return p;
 }
 
-std::size_t clusters_of(const preset::Preset& p) { return spectral::scene_clusters(spectral::settings(p), scene::load_scene(p)).size(); }
+std::size_t clusters_of(const preset::Preset& p) { return photons::scene_clusters(spectral::settings(p), scene::load_scene(p)).size(); }
 
 /// So many clusters, and the right caustic.
 Outcome clusters_and_colour(const preset::Preset& p, double clusters)
@@ -218,7 +219,7 @@ const std::vector<Extreme> extremes = {
      [] {
        preset::Preset p = in_clusters(1e-4);
        spectral::settings(p).photons_per_pass = 1;
-       const spectral::RunPlan plan = plan_of(p);
+       const photons::RunPlan plan = plan_of(p);
        return says(plan.notes.empty() ? "" : plan.notes[0],
                    "spectral.photons_per_pass: raised from 1 to 401, one for each cluster of each light");
      }},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layer "indirect" against closed forms: a furnace, one bounce between two patches by quadrature, a lit patch against a lamp in its
 // place, and where the power goes.
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
@@ -96,9 +97,9 @@ TEST_P(DiffuseFurnace, IsEvenlyLit)
   spectral::settings(p).indirect_photons_per_pass = 1 << 14;
   p.stop.passes = 64;
 
-  spectral::EnergyBalance energy;
+  photons::EnergyBalance energy;
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
-    energy = spectral::energy_of(snapshot, "indirect_energy");
+    energy = photons::energy_of(snapshot, "indirect_energy");
     return squares_of(layer(snapshot, "indirect"), pixels, group);
   });
   const double irradiance = power / (4 * M_PI * radius * radius) * reflectance / (1 - reflectance);
@@ -239,12 +240,12 @@ TEST(Indirect, AccountsForItsEnergy)
   TemporaryFolder temporary;
   const preset::Preset p = open_room(temporary.path());
   const job::Snapshot snapshot = render(p);
-  const spectral::EnergyBalance e = spectral::energy_of(snapshot, "indirect_energy");
+  const photons::EnergyBalance e = photons::energy_of(snapshot, "indirect_energy");
   expect_truth("indirect, energy: accounted for / emitted", (e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w, 1, 1e-12);
   EXPECT_GT(e.absorbed_w, 0.1 * e.emitted_w);
   EXPECT_GT(e.escaped_w, 0.1 * e.emitted_w);
   EXPECT_LT(e.lost_w, 1e-3 * e.emitted_w);
-  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
   EXPECT_EQ(snapshot.progress.work, 3u << 16) << "those of this layer are counted as sent";
 }
 
@@ -261,7 +262,7 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   test::load(*job, state);
   const job::Snapshot resumed = render(*job);
   EXPECT_EQ(layer(resumed, "indirect").rgb, layer(whole, "indirect").rgb);
-  EXPECT_EQ(spectral::energy_of(resumed, "indirect_energy").escaped_w, spectral::energy_of(whole, "indirect_energy").escaped_w);
+  EXPECT_EQ(photons::energy_of(resumed, "indirect_energy").escaped_w, photons::energy_of(whole, "indirect_energy").escaped_w);
 }
 
 } // namespace nephroid::indirect_test

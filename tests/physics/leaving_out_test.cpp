@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Leaving out what a scene does not need changes no picture: a run that leaves out all it can against one with the general kernels and with
 // this omission turned back on; and it is not made in scenes that come close to not needing it.
+#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
 #include "tracing/targets.h"
@@ -25,7 +26,7 @@ std::vector<double> caustic_blocks(const job::Snapshot& snapshot)
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column)
       figures[static_cast<std::size_t>(4 * (row / block) + column / block)] += rgb[3 * static_cast<std::size_t>(row * size + column) + 1];
-  figures[16] = spectral::energy_of(snapshot).deposited_w;
+  figures[16] = photons::energy_of(snapshot).deposited_w;
   return figures;
 }
 
@@ -52,7 +53,7 @@ TEST_P(LeavingOut, ThePictureIsTheSame)
   if (o.same_bits) {
     const job::Snapshot out = render(*specialised_job_of(o.scene, LeaveOut{})), in = render(*with(o.scene));
     EXPECT_EQ(out.picture->rgb, in.picture->rgb);
-    EXPECT_EQ(spectral::energy_of(out).deposited_w, spectral::energy_of(in).deposited_w);
+    EXPECT_EQ(photons::energy_of(out).deposited_w, photons::energy_of(in).deposited_w);
     return;
   }
   preset::Preset other_seed = o.scene;

@@ -2,14 +2,15 @@
 // Which wavelengths meet in a photon map. A photon and the path from the eye that gathers it have to be of one wavelength, or a prism
 // before the camera shows one line's light where another line's image is.
 #include "optics/fresnel.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::map_bands_test {
 
-using Estimator = spectral::Settings::Estimator;
-using Effort = spectral::Settings::Effort;
+using Estimator = photons::Settings::Estimator;
+using Effort = photons::Settings::Effort;
 
 struct Line {
   double nm, n, share; ///< the prism's n; of the lamp's power
@@ -96,8 +97,8 @@ std::vector<double> radiance_in_lines(const job::Snapshot& snapshot)
 
 struct Way {
   const char* name;
-  spectral::Settings::Estimator estimator;
-  spectral::Settings::Method method;
+  photons::Settings::Estimator estimator;
+  photons::Settings::Method method;
 };
 
 class MapBands : public testing::TestWithParam<Way> {};
@@ -113,7 +114,7 @@ TEST_P(MapBands, AStripeHasOneImageForEachLine)
     spectral::settings(p).method = GetParam().method;
     const std::vector<Estimate> figures = render_passes(p, radiance_in_lines);
     const double truth = radiance(lines[i]);
-    const bool hang_together = GetParam().estimator == spectral::Settings::Estimator::sppm;
+    const bool hang_together = GetParam().estimator == photons::Settings::Estimator::sppm;
     const double error = hang_together ? tolerance_over_seeds(lines[i].sppm_scatter, 30) : tolerance(figures[i]) / truth + 1e-3;
     expect_truth(fmt::format("stripe through a prism, {} nm, {}: radiance over its truth", lines[i].nm, GetParam().name),
                  figures[i].mean / truth, 1, error);
@@ -123,10 +124,9 @@ TEST_P(MapBands, AStripeHasOneImageForEachLine)
 }
 
 INSTANTIATE_TEST_SUITE_P(, MapBands,
-                         testing::Values(Way{"automatic", spectral::Settings::Estimator::automatic, spectral::Settings::Method::optimal},
-                                         Way{"sppm", spectral::Settings::Estimator::sppm, spectral::Settings::Method::optimal},
-                                         Way{"clusters", spectral::Settings::Estimator::automatic,
-                                             spectral::Settings::Method::brute_force}),
+                         testing::Values(Way{"automatic", photons::Settings::Estimator::automatic, photons::Settings::Method::optimal},
+                                         Way{"sppm", photons::Settings::Estimator::sppm, photons::Settings::Method::optimal},
+                                         Way{"clusters", photons::Settings::Estimator::automatic, photons::Settings::Method::brute_force}),
                          [](const auto& way) { return std::string(way.param.name); });
 
 // Runs with photon maps: the same bits however they are cut or resumed, iterations by importance, energy, and what the plan says.
@@ -193,7 +193,7 @@ TEST_P(MapRuns, ResumedAnywhereTheyEndWithTheSameBits)
   const job::Snapshot resumed = job->snapshot();
   EXPECT_EQ(resumed.picture->rgb, truth.picture->rgb);
   EXPECT_EQ(resumed.picture->error_draw, truth.picture->error_draw);
-  EXPECT_EQ(spectral::energy_of(resumed).emitted_w, spectral::energy_of(truth).emitted_w);
+  EXPECT_EQ(photons::energy_of(resumed).emitted_w, photons::energy_of(truth).emitted_w);
   EXPECT_EQ(truth.picture->error_draw.empty(), GetParam().estimator == Estimator::sppm);
   EXPECT_GT(*std::max_element(truth.picture->rgb.begin(), truth.picture->rgb.end()), 0);
   EXPECT_THROW(test::load(*make(), std::vector<std::byte>(100)), Error);
@@ -205,7 +205,7 @@ TEST_P(MapRuns, SendTheLampsPower)
   preset::Preset splat = glass_in_view(Estimator::splat);
   preset::Preset p = preset();
   spectral::settings(splat).direct = spectral::settings(p).direct = false;
-  const spectral::EnergyBalance truth = spectral::energy_of(render(splat)), energy = spectral::energy_of(render(p));
+  const photons::EnergyBalance truth = photons::energy_of(render(splat)), energy = photons::energy_of(render(p));
   // The same spheres are aimed at, so every photon carries what is sent there, but for places where spheres overlap.
   EXPECT_NEAR((energy.deposited_w + energy.missed_w + energy.absorbed_w + energy.escaped_w + energy.lost_w) / energy.emitted_w, 1, 1e-6);
   EXPECT_EQ(energy.refused_contributions, 0u);
@@ -273,7 +273,7 @@ TEST(MapPlan, SaysWhereARadiusLosesTheCaustics)
 TEST(MapPlan, SppmTakesTwentyBytesForEachPixelInEachCluster)
 {
   preset::Preset p = glass_in_view(Estimator::sppm);
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   EXPECT_EQ(bytes_of(plan_of(p), "statistics of pixels"), 401u * 400 * 20);
   spectral::settings(p).effort = Effort::random;
   EXPECT_EQ(bytes_of(plan_of(p), "statistics of pixels"), 400u * 20);

@@ -13,6 +13,7 @@
 // spreads over the area |1 - 2 s / cos phi| dz ds of floor: E = E0 sin(elevation) / |1 - 2 s / cos phi|, summed over all rays through a
 // point.
 #include "optics/fresnel.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::nephroid_test {
@@ -111,7 +112,7 @@ protected:
     const TemporaryFolder folder;
     const preset::Preset p = cup(folder);
     const job::Snapshot snapshot = render(p);
-    EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
+    EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
     picture = watts(snapshot, "caustic", cup_floor, spectrum_of(p.scene.lights[0]));
     photon_w = directional_photon_w(p, 4.0 * (1 << 20));
   }

@@ -2,12 +2,13 @@
 // Caustics gathered from photon maps: seen through glass and in mirrors by the estimator `automatic`, everywhere by `sppm`. Radiance in
 // closed form, and pictures against those of splats, which have no radius and no bias.
 #include "optics/fresnel.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
 namespace nephroid::photon_maps_test {
 
-using Estimator = spectral::Settings::Estimator;
+using Estimator = photons::Settings::Estimator;
 
 /// Mean Y of the layer "caustic", of a light of 1 W.
 std::vector<double> mean_luminance(const job::Snapshot& snapshot)
@@ -192,7 +193,7 @@ TEST(PhotonMaps, SppmIsWhatSplatsAre)
   preset::Preset splat = ball_caustic(), sppm = splat;
   sppm.seed = 77;
   spectral::settings(sppm).estimator = Estimator::sppm;
-  spectral::settings(sppm).effort = spectral::Settings::Effort::equal;
+  spectral::settings(sppm).effort = photons::Settings::Effort::equal;
   spectral::settings(sppm).photons_per_pass = 1 << 14;
   set_radius(sppm, 0.4);
   expect_same_picture("sppm against splats", render_passes(sppm, block_sums), render_passes(splat, block_sums), 0.4);

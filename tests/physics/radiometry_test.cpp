@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Absolute radiometry: what each light sends, what reaches a surface and what the camera makes of it, against closed forms; photons of a
 // large area light; where photons end. tests/images/shipped_presets_test.cpp looks at the balance of every preset.
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
@@ -146,7 +147,7 @@ TEST_P(Photons, ThroughNothingMakeTheDirectPicture)
   // 16 % noise, and 0.5 % for the mean over all pixels; the rms over 1024 pixels is then known to 0.4 %. Six standard deviations of each.
   expect_truth("radiometry: power through n = 1 over direct light", r.mean, 1, 0.031);
   EXPECT_LT(r.rms, 0.185);
-  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
 }
 
 std::string light_name(const testing::TestParamInfo<preset::Light::Type>& parameter)
@@ -277,7 +278,7 @@ TEST(AreaLight, LowDiscrepancyPhotonsMakeThePanelsIrradiance)
   record("area light, low discrepancy: tolerance of a sixteenth of the floor", widest, 0, 0.3);
 }
 
-bool is_balanced(const spectral::EnergyBalance& e)
+bool is_balanced(const photons::EnergyBalance& e)
 {
   const double parts = e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w;
   return std::abs(parts - e.emitted_w) <= 1e-12 * e.emitted_w;
@@ -297,11 +298,11 @@ TEST(Energy, WhatEscapesIsWhatARoomCatches)
                      object("floor", quad(2, 2), "white", at({0, -1, 0}))};
   p.scene.lights = {{.position = {0.3, 2, 0.4}}};
   spectral::settings(p).photons_per_pass = 1 << 16;
-  const spectral::EnergyBalance open = spectral::energy_of(render(p));
+  const photons::EnergyBalance open = photons::energy_of(render(p));
   preset::Shape walls = box(8, 8, 8);
   walls.inwards = true;
   p.scene.objects.push_back(object("room", walls, "white"));
-  const spectral::EnergyBalance room = spectral::energy_of(render(p));
+  const photons::EnergyBalance room = photons::energy_of(render(p));
   EXPECT_TRUE(is_balanced(open) && is_balanced(room));
   EXPECT_GT(open.escaped_w, 0.3 * open.emitted_w);
   EXPECT_EQ(room.escaped_w, 0);

@@ -2,6 +2,7 @@
 // Photons through plates and prisms, against Snell's and Fresnel's closed forms.
 #include "optics/dispersion.h"
 #include "optics/fresnel.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::refraction_test {
@@ -21,14 +22,14 @@ preset::Preset seen_from_above(double n, int photons)
 
 // ---- Plate -----------------------------------------------------------------------------------------------------------------
 // A pencil of 0.01 degrees crosses a plate of 40 m x 1 mm x 40 m that lies in y = 0; a floor below catches what goes through.
-spectral::EnergyBalance through_plate(double theta_deg, double n, int photons)
+photons::EnergyBalance through_plate(double theta_deg, double n, int photons)
 {
   preset::Preset p = seen_from_above(n, photons);
   p.scene.objects = {object("plate", box(40, 1e-3, 40), "glass"), object("floor", quad(400, 400), "white", at({0, -1, 0}))};
   const double s = std::sin(theta_deg * degree), c = std::cos(theta_deg * degree);
   // The pencil's start is 0.1 m from where it meets the plate, so that at 89 degrees it is still narrow there.
   p.scene.lights.push_back(pencil({-0.1 * s, 0.5e-3 + 0.1 * c, 0}, {s, -c, 0}, 0.01));
-  const spectral::EnergyBalance e = spectral::energy_of(render(p));
+  const photons::EnergyBalance e = photons::energy_of(render(p));
   EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);
   EXPECT_EQ(e.missed_w, 0);
   EXPECT_EQ(e.lost_w, 0);
@@ -41,7 +42,7 @@ TEST_P(Plate, TransmittanceIsFresnels)
 {
   constexpr double n = 1.5;
   constexpr int photons = 1 << 20;
-  const spectral::EnergyBalance e = through_plate(GetParam(), n, photons);
+  const photons::EnergyBalance e = through_plate(GetParam(), n, photons);
   expect_share("plate: transmittance at " + std::to_string(GetParam()) + " degrees", e.deposited_w / e.emitted_w,
                check::plate_transmittance(GetParam() * degree, n), photons);
   EXPECT_NEAR(e.emitted_w, 1, 1e-4); // the whole pencil
@@ -64,14 +65,14 @@ TEST(AbsorbingPlate, TransmittanceFollowsBeerAndLambert)
   p.scene.camera.position = {0, 5, 0};
   p.scene.camera.up = {0, 0, -1};
   spectral::settings(p).photons_per_pass = 1 << 18;
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   const optics::DispersionCurve curve = optics::load_dispersion(absorbing.dispersion.file);
   for (const double nm : {400.0, 436.0, 500.0, 660.0}) {
     p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05, nm)};
     const optics::IndexSample s = curve.sample(nm);
     const double r = std::pow((*s.n - 1) / (*s.n + 1), 2), tau = std::exp(-4 * M_PI * *s.k * 0.05 / (nm * 1e-9));
     const double truth = std::pow(1 - r, 2) * tau / (1 - r * r * tau * tau);
-    const spectral::EnergyBalance e = spectral::energy_of(render(p));
+    const photons::EnergyBalance e = photons::energy_of(render(p));
     const double measured = e.deposited_w / e.emitted_w;
     // Each photon that gets through carries tau, so the count's error is that of the number of those.
     expect_truth("absorbing plate: transmittance at " + std::to_string(static_cast<int>(nm)) + " nm", measured, truth,
@@ -123,7 +124,7 @@ preset::Preset prism_before_screen(const std::string& glass_file)
   prism.side = prism.height = prism_side;
   prism.apex_deg = 60;
   p.scene.objects = {object("prism", prism, "glass"), object("screen", quad(4, 4), "white", at({0, 0, screen_z}, {90, 0, 0}))};
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   spectral::settings(p).photons_per_pass = 1 << 15;
   return p;
 }
@@ -169,7 +170,7 @@ TEST(Nested, OverlappingBoxesOfOneGlassAreOne)
   p.scene.objects = {object("upper", box(1, 0.1, 1), "glass", at({0, 0.04, 0})),
                      object("lower", box(1, 0.1, 1), "glass", at({0, -0.04, 0})), object("floor", quad(100, 100), "white", at({0, -1, 0}))};
   p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05)};
-  const spectral::EnergyBalance e = spectral::energy_of(render(p));
+  const photons::EnergyBalance e = photons::energy_of(render(p));
   const double r = std::pow(0.8 / 2.8, 2), truth = (1 - r) / (1 + r);
   expect_share("nested: transmittance of overlapping boxes of one glass", e.deposited_w / e.emitted_w, truth, 1 << 18);
 }
@@ -182,7 +183,7 @@ TEST(Nested, AirInsideGlassMakesTwoPlates)
                      object("floor", quad(100, 100), "white", at({0, -1, 0}))};
   p.scene.objects[1].priority = 1;
   p.scene.lights = {pencil({0, 1, 0}, {0, -1, 0}, 0.05)};
-  const spectral::EnergyBalance e = spectral::energy_of(render(p));
+  const photons::EnergyBalance e = photons::energy_of(render(p));
   const double r = std::pow(0.8 / 2.8, 2), truth = (1 - r) / (1 + 3 * r);
   expect_share("nested: transmittance of a bubble of air in glass", e.deposited_w / e.emitted_w, truth, 1 << 18);
 }
@@ -199,7 +200,7 @@ double standing_on(const preset::Object& below, const char* catcher, bool glass_
   p.scene.objects.push_back(object("catcher", quad(400, 400), "white", std::string(catcher) == "above" ? at({0, 5, 0}) : at({0, -5, 0})));
   p.scene.lights = {pencil({0.1, 1, 0.07}, {0, -1, 0}, 0.05)};
   p.scene.camera.position = {0, 3, 0};
-  const spectral::EnergyBalance e = spectral::energy_of(render(p));
+  const photons::EnergyBalance e = photons::energy_of(render(p));
   EXPECT_EQ(e.lost_w, 0);
   return e.deposited_w / e.emitted_w;
 }
@@ -233,7 +234,7 @@ TEST(TotalReflection, ACubeKeepsWhatIsOutsideItsCones)
   constexpr int photons = 1 << 16;
   spectral::settings(p).photons_per_pass = photons;
   spectral::settings(p).max_surfaces = 300;
-  const spectral::EnergyBalance e = spectral::energy_of(render(p));
+  const photons::EnergyBalance e = photons::energy_of(render(p));
   // Inside a cone a photon comes back to a face of the same kind at the same angle until it is let out: all of it leaves.
   const double critical = std::asin(1 / n), truth = 6 * (1 - std::cos(critical)) / 2;
   expect_share("total reflection: light that leaves a cube of n = 2", e.deposited_w / e.emitted_w, truth, photons);

@@ -114,7 +114,7 @@ TEST(AbsorbingBall, TakesWhatItsChordsTake)
       p.scene.lights = {parallel_light({0.3, -1, 0.2})};
       spectral::settings(p).photons_per_pass = 1 << 17;
       spectral::settings(p).max_surfaces = 100;
-      const spectral::EnergyBalance e = spectral::energy_of(render(p));
+      const photons::EnergyBalance e = photons::energy_of(render(p));
       const double area = M_PI * radius * radius, q = efficiency(n, per_metre);
       // Photons carry w each and lose a share A <= 1, so the sum's variance is at most w times the power absorbed. The facets' shadow
       // is smaller than the sphere's by up to 8e-4 and their chords are shorter by 3e-4.
@@ -144,7 +144,7 @@ double share_above(double theta, double n, double from_below)
   p.scene.lights = {pencil({-s, -c * from_below, 0}, {s, c * from_below, 0}, 1e-6)};
   spectral::settings(p).photons_per_pass = photons;
   spectral::settings(p).max_surfaces = 1;
-  const spectral::EnergyBalance e = spectral::energy_of(render(p));
+  const photons::EnergyBalance e = photons::energy_of(render(p));
   EXPECT_NEAR(e.emitted_w, 1, 1e-6);
   return e.deposited_w / e.emitted_w;
 }
@@ -186,6 +186,7 @@ TEST(BrewstersAngle, TheKernelReflectsNothingPolarisedInThePlane)
 {
   const TestKernels kernels(R"(
 #include "kernels/tracing/fresnel.h"
+#include "spectral/settings.h"
 kernel void reflectances(global const float4* in, global float4* out, uint count)
 {
   const uint i = get_global_id(0);

@@ -3,6 +3,7 @@
 // that it makes without the plate (layer "direct"), but for what the plate lets through, (1 - R) / (1 + R) (slab_test.cpp). A photon on its
 // own knows how many of its kind meet a facet, not the normal that the facet is meant to have.
 #include "optics/fresnel.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
@@ -113,7 +114,7 @@ TEST(SmoothReceiver, PhotonMapsKnowTheNormalsToo)
   const preset::Object square = leaning_square(folder.path());
   preset::Preset with_plate = lit_receiver(square, true), without = lit_receiver(square, false);
   for (preset::Preset* p : {&with_plate, &without}) p->scene.camera.fov_deg = 6; // well inside, where a map has no edge
-  spectral::settings(with_plate).estimator = spectral::Settings::Estimator::sppm;
+  spectral::settings(with_plate).estimator = photons::Settings::Estimator::sppm;
   spectral::settings(with_plate).sppm.radius = 0.05;
   expect_lit_as_directly("leaning square, photon maps", with_plate, without, 0.01);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs with smoothed caustics beside the same runs without: the same power, less error.
-#include "spectral/sight.h"
+#include "photons/sight.h"
+#include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/passes.h"
@@ -8,8 +9,8 @@
 
 namespace nephroid::smoothing_test {
 
-using Smooth = spectral::Settings::Smoothing;
-using Effort = spectral::Settings::Effort;
+using Smooth = photons::Settings::Smoothing;
+using Effort = photons::Settings::Effort;
 
 preset::Preset ball(int passes, Smooth smoothing)
 {
@@ -88,7 +89,7 @@ TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
   constexpr std::size_t table = 1, lower = 2, window = 3;
   std::vector<double> before(scene.objects.size()), after(scene.objects.size());
   for (std::size_t i = 0; i < 64 * 64; ++i) {
-    const spectral::Sight sight = spectral::look_through_pixel(scene, bvh, static_cast<int>(i) % 64, static_cast<int>(i) / 64);
+    const photons::Sight sight = photons::look_through_pixel(scene, bvh, static_cast<int>(i) % 64, static_cast<int>(i) / 64);
     ASSERT_EQ(sight.first.object, static_cast<int>(window));
     const auto object = static_cast<std::size_t>(sight.last.object);
     ASSERT_TRUE(object == table || object == lower);
@@ -121,7 +122,7 @@ TEST(SmoothedRun, needs_halves_and_splats_and_says_so)
   EXPECT_FALSE(smoothing_pass(whole).runs);
   EXPECT_EQ(smoothing_pass(whole).field, "/measure/estimate");
   EXPECT_TRUE(smoothing_pass(whole).run_value);
-  spectral::settings(sppm).estimator = spectral::Settings::Estimator::sppm;
+  spectral::settings(sppm).estimator = photons::Settings::Estimator::sppm;
   EXPECT_FALSE(smoothing_pass(sppm).runs);
   EXPECT_EQ(smoothing_pass(sppm).field, "");
 }
@@ -157,7 +158,7 @@ Errors errors_of(const std::vector<float>& rgb, const std::vector<float>& truth,
 TEST(ThroughGlass, RunsGoOnConverging)
 {
   std::vector<bool> glass(48 * 48, false);
-  for (const std::uint32_t pixel : spectral::glass_pixels(scene::load_scene(ball(1)))) glass[pixel] = true;
+  for (const std::uint32_t pixel : photons::glass_pixels(scene::load_scene(ball(1)))) glass[pixel] = true;
   const job::Snapshot few = test::render(ball(4)), many = test::render(ball(64));
   preset::Preset long_run = ball(1024, 1000);
   spectral::settings(long_run).pixel_samples = 1024;
@@ -182,9 +183,9 @@ preset::Preset whole(int passes)
 {
   preset::Preset p = ball(passes);
   spectral::settings(p).caustic = true;
-  spectral::settings(p).estimator = spectral::Settings::Estimator::automatic;
-  spectral::settings(p).effort = spectral::Settings::Effort::automatic;
-  spectral::settings(p).smoothing = spectral::Settings::Smoothing::automatic;
+  spectral::settings(p).estimator = photons::Settings::Estimator::automatic;
+  spectral::settings(p).effort = photons::Settings::Effort::automatic;
+  spectral::settings(p).smoothing = photons::Settings::Smoothing::automatic;
   spectral::settings(p).photons_per_pass = 1 << 12;
   return p;
 }
@@ -209,10 +210,10 @@ TEST(ThroughGlass, ARunThatIsResumedHasTheSameBits)
 TEST(ThroughGlass, SharesChangeNoLight)
 {
   preset::Preset shared = whole(64), plain = test::plain(shared);
-  spectral::settings(shared).smoothing = spectral::Settings::Smoothing::off;
+  spectral::settings(shared).smoothing = photons::Settings::Smoothing::off;
   plain.seed = 7;
   std::vector<bool> glass(48 * 48, false);
-  for (const std::uint32_t pixel : spectral::glass_pixels(scene::load_scene(plain))) glass[pixel] = true;
+  for (const std::uint32_t pixel : photons::glass_pixels(scene::load_scene(plain))) glass[pixel] = true;
   const auto sum_of = [&](const job::Snapshot& snapshot) {
     const std::vector<float>& rgb = layer(snapshot, "caustic").rgb;
     double sum = 0;
@@ -233,7 +234,7 @@ std::vector<double> caustic_colour(const job::Snapshot& snapshot)
   optics::Colour sum{};
   for (std::size_t i = 0; i < rgb.size(); ++i) sum[i % 3] += rgb[i];
   const optics::Colour xyz = optics::linear_srgb_to_xyz(sum);
-  return {xyz[0], xyz[1], xyz[2], spectral::energy_of(snapshot).deposited_w};
+  return {xyz[0], xyz[1], xyz[2], photons::energy_of(snapshot).deposited_w};
 }
 
 /// A ball under daylight and a candle, on a floor that reflects no blue below 480 nm, to which (4.15) gives no importance.

@@ -2,6 +2,7 @@
 // Newton's prism over a receiver that its light grazes: splats stretched along the wavelength make one rainbow of 401 lines, each colour
 // where Snell puts it, and no light is made or lost at the receiver's edge.
 #include "optics/fresnel.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::spectral_differentials_test {
@@ -40,7 +41,7 @@ public:
     const glm::dvec2 from = turned({path.from_x, path.from_z}), direction = turned({path.direction_x, path.direction_z});
     p_.scene.lights[0] = pencil({from.x, from.y, 0}, {direction.x, direction.y, 0}, 0.001);
     p_.scene.lights[0].spectrum = {};
-    spectral::settings(p_).method = spectral::Settings::Method::brute_force;
+    spectral::settings(p_).method = photons::Settings::Method::brute_force;
     spectral::settings(p_).photons_per_pass = 1 << 17;
     see(landing(index(560)), landing(index(700)));
   }
@@ -226,7 +227,7 @@ TEST(SpectralDifferentials, SpreadWholeClustersWithAndWithoutJitter)
     bool jitter;
   };
   Newton newton;
-  spectral::settings(newton.preset()).method = spectral::Settings::Method::optimal;
+  spectral::settings(newton.preset()).method = photons::Settings::Method::optimal;
   spectral::settings(newton.preset()).photons_per_pass = 1 << 18;
   spectral::settings(newton.preset()).differentials = true;
   const Columns truth = newton.truth();
@@ -247,7 +248,7 @@ TEST(SpectralDifferentials, KeepTheLightAtTheEdgeOfAReceiver)
 {
   Newton newton;
   spectral::settings(newton.preset()).jitter = true;
-  spectral::settings(newton.preset()).method = spectral::Settings::Method::optimal;
+  spectral::settings(newton.preset()).method = photons::Settings::Method::optimal;
   spectral::settings(newton.preset()).threshold_deg = 0.05;
   const double edge = newton.landing(newton.index(640));
   newton.preset().scene.objects[1].shape->size = {edge - 0.3, 1, 1};

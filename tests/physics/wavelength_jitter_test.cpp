@@ -3,6 +3,7 @@
 // brute force, a path for every wavelength. Low-discrepancy numbers and photons dealt by variance have to keep the expectation too. The
 // two halves of a film, from which a run tells its own error, have to be independent whatever the paths follow.
 #include "job/job.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"
@@ -26,7 +27,7 @@ preset::Preset dispersing_ball(bool absorbing)
   }
   spectral::settings(p).photons_per_pass = 1 << 13;
   spectral::settings(p).jitter = spectral::settings(p).low_discrepancy = false;
-  spectral::settings(p).effort = spectral::Settings::Effort::power;
+  spectral::settings(p).effort = photons::Settings::Effort::power;
   p.stop.passes = 24;
   return p;
 }
@@ -43,7 +44,7 @@ std::vector<double> figures(const job::Snapshot& snapshot)
         sums[static_cast<std::size_t>(3 * (3 * (row / block) + column / block) + c)] +=
             rgb[static_cast<std::size_t>(3 * (row * size + column) + c)];
   for (const double watts :
-       {spectral::energy_of(snapshot).emitted_w, spectral::energy_of(snapshot).deposited_w, spectral::energy_of(snapshot).absorbed_w})
+       {photons::energy_of(snapshot).emitted_w, photons::energy_of(snapshot).deposited_w, photons::energy_of(snapshot).absorbed_w})
     sums.push_back(watts);
   return sums;
 }
@@ -64,10 +65,10 @@ class WavelengthJitter : public testing::TestWithParam<bool> {};
 TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce)
 {
   preset::Preset p = dispersing_ball(GetParam());
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   const std::vector<Estimate> truth = render_passes(p, figures);
   p.seed = 2;
-  spectral::settings(p).method = spectral::Settings::Method::optimal;
+  spectral::settings(p).method = photons::Settings::Method::optimal;
   spectral::settings(p).threshold_deg = 80; // one cluster
   spectral::settings(p).jitter = true;
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
@@ -76,7 +77,7 @@ TEST_P(WavelengthJitter, HasTheExpectationOfBruteForce)
   spectral::settings(p).threshold_deg = 0.5;
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
   p.seed = 4;
-  spectral::settings(p).effort = spectral::Settings::Effort::variance;
+  spectral::settings(p).effort = photons::Settings::Effort::variance;
   EXPECT_GT(p_of_same(render_passes(p, figures), truth), false_alarm);
 }
 
@@ -87,10 +88,10 @@ TEST(WholeClusters, AreBiased)
 {
   preset::Preset p = dispersing_ball(false);
   spectral::settings(p).photons_per_pass = 1 << 16;
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   const std::vector<Estimate> truth = render_passes(p, figures);
   p.seed = 2;
-  spectral::settings(p).method = spectral::Settings::Method::optimal;
+  spectral::settings(p).method = photons::Settings::Method::optimal;
   spectral::settings(p).threshold_deg = 80;
   EXPECT_LT(p_of_same(render_passes(p, figures), truth), false_alarm);
 }
@@ -163,7 +164,7 @@ TEST(HalvesOfTheFilm, EyePathsTakeIndependentClusters)
   p.scene.objects[0].transform.translate = {0, 2, 0};
   p.scene.lights[0].position = {0.3, 1.8, 0.2};
   p.scene.camera.position = {0, 6, 0.1};
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   spectral::settings(p).caustic = false;
   p.stop.passes = 2;
   const double ratio = believed_over_true_error(p);
@@ -270,7 +271,7 @@ TEST(PixelSpectrum, OfLightThroughGlassIsClusterByCluster)
   p.scene.objects.push_back(object("sheet", box(8, 0.01, 8), "nothing", at({0, 0.5, 0})));
   p.scene.camera.position[1] = 0.45;
   Screen{{0, 0, 0}, metres, size}.fill(p.scene.camera, 0.45);
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   spectral::settings(p).step_nm = 40;
   spectral::settings(p).photons_per_pass = 1 << 17;
   p.stop.passes = 32;

@@ -7,6 +7,7 @@
 // layer): the sum stays rho L. One thing is missing: a way from the receiver through the glass and back to it should end at the receiver's
 // own radiance, which neither layer has (that is interreflection). Its share r is measured apart: an area light in the receiver's place,
 // and what comes back to it. So direct + caustic = rho L (1 - r).
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 #include "tests/support/passes.h"
 
@@ -64,7 +65,7 @@ double returning_share(preset::Preset p)
   p.scene.lights = {area_light(above, {0, 1, 0}, receiver_side)};
   spectral::settings(p).direct = false;
   p.stop.passes = 4;
-  return spectral::energy_of(render(p)).deposited_w / p.scene.lights[0].power_w;
+  return photons::energy_of(render(p)).deposited_w / p.scene.lights[0].power_w;
 }
 
 preset::Object ball(const std::string& name, double radius, const std::string& material, double x, preset::Object::Normals normals,
@@ -121,10 +122,10 @@ TEST_P(WhiteFurnace, NothingInItCanBeSeen)
   const double truth = reflectance * radiance * of_a_watt;
   if (GetParam().sky) put_under_a_sky(p);
   EXPECT_LT(r, 0.04);
-  spectral::EnergyBalance energy;
+  photons::EnergyBalance energy;
   constexpr std::size_t squares = groups * groups;
   const std::vector<Estimate> estimates = render_passes(p, [&](const job::Snapshot& snapshot) {
-    energy = spectral::energy_of(snapshot);
+    energy = photons::energy_of(snapshot);
     std::vector<double> figures(squares + 2, 0.0); // the squares, their mean, the mean of the direct layer
     const std::vector<double> direct = luminance(layer(snapshot, "direct")), caustic = luminance(layer(snapshot, "caustic"));
     for (std::size_t i = 0; i < receiver_view.count(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme settings of clusters, maps and lights compared by the colour of one caustic: which way it is estimated must not matter.
 #pragma once
+#include "spectral/settings.h"
 #include "tests/support/extremes.h"
 #include "tests/support/passes.h"
 
@@ -27,7 +28,7 @@ inline preset::Preset caustic_of_ball(int pixels = 16)
 /// Mean X, Y and Z of a layer.
 inline std::vector<double> mean_xyz(const job::Snapshot& snapshot, const std::string& name)
 {
-  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
   const std::vector<float>& rgb = layer(snapshot, name).rgb;
   optics::Colour sum{};
   for (std::size_t i = 0; i < rgb.size(); ++i) sum[i % 3] += rgb[i] / (static_cast<double>(rgb.size()) / 3);

@@ -3,6 +3,7 @@
 // NEPHROID_EXTREMES_TABLE names a file, every case appends its row to it: docs/notebook/extremes.md is made of these.
 #pragma once
 #include "preset/read.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::test {
@@ -82,7 +83,7 @@ inline preset::Preset over_floor(int photons)
 /// as a wrong result.
 inline double deposited(const preset::Preset& p)
 {
-  const spectral::EnergyBalance e = spectral::energy_of(render(p));
+  const photons::EnergyBalance e = photons::energy_of(render(p));
   EXPECT_EQ(e.refused_contributions, 0u);
   EXPECT_NEAR(e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w, e.emitted_w, 1e-9 * e.emitted_w);
   return e.deposited_w / e.emitted_w;
@@ -132,7 +133,7 @@ inline preset::Preset ball_over_lit_floor()
 
 inline double mean_y(const job::Snapshot& snapshot, const std::string& name)
 {
-  EXPECT_EQ(spectral::energy_of(snapshot).refused_contributions, 0u);
+  EXPECT_EQ(photons::energy_of(snapshot).refused_contributions, 0u);
   const std::vector<double> y = luminance(layer(snapshot, name));
   return std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size());
 }

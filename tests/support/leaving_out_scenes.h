@@ -2,6 +2,7 @@
 // For each thing that engine 1 can leave out, a small scene that does not need it. Tests show that its picture stays the same without,
 // the bench how much time that saves.
 #pragma once
+#include "spectral/settings.h"
 #include "tests/support/presets.h"
 #include "tests/support/standard.h"
 #include "tracing/scene_tables.h"
@@ -114,7 +115,7 @@ inline std::vector<Omission> omissions()
   straight.scene.materials["glass"] = glass(1);
   straight.scene.objects[0].shape = box(1, 0.4, 1);
   preset::Preset no_glass_seen = floor_scene();
-  spectral::settings(no_glass_seen).estimator = spectral::Settings::Estimator::automatic;
+  spectral::settings(no_glass_seen).estimator = photons::Settings::Estimator::automatic;
   spectral::settings(no_glass_seen).jitter = false; // with maps, all photons of a cluster have one wavelength a pass
   // A tree of a few triangles is soon searched: all other code has its largest share.
   preset::Preset slab = ball;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random presets: every field that means something gets a random legal value, by the descriptions.
 #pragma once
+#include "photons/describe_settings.h"
 #include "preset/describe.h"
-#include "spectral/describe_settings.h"
+#include "spectral/settings.h"
 #include "tests/support/test.h"
 
 namespace nephroid::test {
@@ -110,19 +111,19 @@ inline preset::Preset random_preset(std::uint64_t seed)
     if (l.type != Light::Type::point) l.direction[1] += l.direction == Vec3{0, 0, 0} ? 1 : 0;
   }
   const auto agree = [](Settings& settings) {
-    auto& s = settings.as<spectral::Settings>();
-    if (s.effort == spectral::Settings::Effort::random) s.estimator = spectral::Settings::Estimator::sppm;
-    if (s.effort == spectral::Settings::Effort::variance) s.estimator = spectral::Settings::Estimator::automatic;
+    auto& s = settings.as<photons::Settings>();
+    if (s.effort == photons::Settings::Effort::random) s.estimator = photons::Settings::Estimator::sppm;
+    if (s.effort == photons::Settings::Effort::variance) s.estimator = photons::Settings::Estimator::automatic;
   };
   agree(p.settings);
   if (p.reference && p.reference->settings) agree(*p.reference->settings);
-  if (spectral::Settings& s = spectral::settings(p); s.relight) { // what layers cannot keep
-    s.estimator = spectral::Settings::Estimator::splat;
-    s.effort = spectral::Settings::Effort::power;
+  if (photons::Settings& s = spectral::settings(p); s.relight) { // what layers cannot keep
+    s.estimator = photons::Settings::Estimator::splat;
+    s.effort = photons::Settings::Effort::power;
     s.differentials = s.indirect = false;
     if (p.scene.environment) p.scene.environment->lights = false;
   }
-  const bool estimates = p.measure.estimate && spectral::settings(p).estimator != spectral::Settings::Estimator::sppm;
+  const bool estimates = p.measure.estimate && spectral::settings(p).estimator != photons::Settings::Estimator::sppm;
   if (!estimates && !p.reference) p.stop.error.reset();                               // nothing would measure it
   if (p.reference && p.reference->type == Reference::Type::file) p.animation.reset(); // a picture is of one frame
   if (p.animation) {                                                                  // fields are those of frame 0

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // An independent photon tracer: Embree finds the hits, everything else is double precision and written from the laws themselves, with
-// random numbers of its own. Slow and plain: what kernels/spectral/photons.cl is judged by.
+// random numbers of its own. Slow and plain: what kernels/photons/photons.cl is judged by.
 #pragma once
 #include "optics/fresnel.h"
-#include "spectral/tables/run_tables.h"
+#include "photons/tables/run_tables.h"
 #include "tests/support/ellipsoids.h"
 #include "tests/support/tracer.h"
 
@@ -17,7 +17,7 @@ struct ReferenceFilm {
 /// Photons from a point light, in the open, into the cone about everything that is glass or a mirror.
 class ReferencePhotons {
 public:
-  ReferencePhotons(const scene::Scene& scene, const spectral::RunTables& tables, unsigned seed)
+  ReferencePhotons(const scene::Scene& scene, const photons::RunTables& tables, unsigned seed)
       : scene_(scene), tables_(tables), tracer_(scene.geometry, RTC_SCENE_FLAG_ROBUST), random_(seed)
   {
     for (const shared::DeviceTarget& target : tables.targets) {
@@ -230,7 +230,7 @@ private:
   }
 
   const scene::Scene& scene_;
-  const spectral::RunTables& tables_;
+  const photons::RunTables& tables_;
   EmbreeTracer tracer_;
   std::mt19937_64 random_;
   std::uniform_real_distribution<double> uniform_{0, 1};

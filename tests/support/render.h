@@ -21,7 +21,7 @@ inline const compute::Context& shared_context()
 /// The same preset, but what a run would decide by what it measures is decided: plain pictures, whose statistics are known.
 inline preset::Preset plain(preset::Preset preset)
 {
-  using spectral::Settings;
+  using photons::Settings;
   Settings& settings = spectral::settings(preset);
   if (settings.smoothing == Settings::Smoothing::automatic) settings.smoothing = Settings::Smoothing::off;
   if (settings.effort == Settings::Effort::automatic) settings.effort = Settings::Effort::power;
@@ -33,7 +33,7 @@ inline std::unique_ptr<job::Job> job_as_it_is(const preset::Preset& preset, cons
 {
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  return spectral::make_job(preset, scene, bvh, spectral::make_plan(preset, scene, bvh, leave_out), context);
+  return photons::make_job(preset, scene, bvh, spectral::make_plan(preset, scene, bvh, leave_out), context);
 }
 
 inline std::unique_ptr<job::Job> job_as_it_is(const preset::Preset& preset)

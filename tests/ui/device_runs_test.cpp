@@ -13,12 +13,12 @@ protected:
 
   EngineTest() { fs::copy(NEPHROID_SOURCE_DIR "/kernels", kernels, fs::copy_options::recursive); }
   compute::DeviceOptions options() const { return {.selector = "", .kernels = kernels}; }
-  std::string source() const { return read_file(kernels / "spectral/direct.cl"); }
+  std::string source() const { return read_file(kernels / "photons/direct.cl"); }
   /// In one step: a temporary file beside the kernels would be a change of its own.
   void write(const std::string& text) const
   {
     write_file_whole(folder.path() / "new.cl", text);
-    fs::rename(folder.path() / "new.cl", kernels / "spectral/direct.cl");
+    fs::rename(folder.path() / "new.cl", kernels / "photons/direct.cl");
   }
 };
 
@@ -43,7 +43,7 @@ TEST_F(EngineTest, AChangedKernelIsBuiltAndABrokenOneKeepsTheLastPicture)
   write("this is no kernel\n" + original);
   ASSERT_TRUE(until([&] { return workbench.run().status().state == job::State::failed; }));
   workbench.update();
-  EXPECT_THAT(only_message(workbench), StartsWith("spectral/direct.cl:1: "));
+  EXPECT_THAT(only_message(workbench), StartsWith("photons/direct.cl:1: "));
   EXPECT_EQ(sum(workbench.run().snapshot()), bright) << "the last picture stays";
 
   // Compiles again, and gives another picture: nothing is added to the film.

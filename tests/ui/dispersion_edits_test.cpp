@@ -5,7 +5,7 @@
 
 namespace nephroid::ui::dispersion_edits_test {
 
-using spectral::ClusterMethod;
+using photons::ClusterMethod;
 
 optics::Spectrum glass(const std::string& name)
 {
@@ -87,7 +87,7 @@ TEST(DispersionFigures, TheSpreadIsTheDifferenceOfTheAngles)
 {
   optics::Spectrum n{};
   for (std::size_t i = 0; i < n.size(); ++i) n[i] = i < 100 ? 1.6 : 1.5;
-  const ClusterFigures figures = figures_of(spectral::cluster_wavelengths(n, 45, ClusterMethod::optimal), n);
+  const ClusterFigures figures = figures_of(photons::cluster_wavelengths(n, 45, ClusterMethod::optimal), n);
   ASSERT_EQ(figures.clustering.clusters.size(), 1u);
   const double at_45 = (std::asin(std::sqrt(0.5) / 1.5) - std::asin(std::sqrt(0.5) / 1.6)) * 180 / std::numbers::pi;
   EXPECT_NEAR(figures.at_45.greatest_deg, at_45, 1e-12);
@@ -101,12 +101,12 @@ TEST(DispersionFigures, InsideAClusterTheMeanSpreadIsBelowTheThreshold)
   for (const char* name : {"N-SF66", "arbitrary-1", "rhodamine-6G-Seckin"}) {
     const optics::Spectrum n = glass(name);
     for (const double threshold : {0.01, 0.05, 0.5}) {
-      const ClusterFigures optimal = figures_of(spectral::cluster_wavelengths(n, threshold, ClusterMethod::optimal), n);
+      const ClusterFigures optimal = figures_of(photons::cluster_wavelengths(n, threshold, ClusterMethod::optimal), n);
       EXPECT_LE(optimal.over_angles.greatest_deg, threshold) << name;
       EXPECT_LE(optimal.over_angles.mean_deg, optimal.over_angles.greatest_deg) << name;
       EXPECT_GT(optimal.over_angles.mean_deg, 0) << name;
     }
-    const ClusterFigures each = figures_of(spectral::cluster_wavelengths(n, 0.05, ClusterMethod::brute_force), n);
+    const ClusterFigures each = figures_of(photons::cluster_wavelengths(n, 0.05, ClusterMethod::brute_force), n);
     EXPECT_EQ(each.at_45.greatest_deg, 0);
     EXPECT_EQ(each.over_angles.mean_deg, 0);
     EXPECT_EQ(each.saving, 1);

@@ -2,11 +2,12 @@
 // The panel "Dispersion" in a window without a display: presets with glass, the mouse on its points and widgets.
 #pragma once
 #include "optics/dispersion.h"
+#include "spectral/settings.h"
 #include "window_fixture.h"
 
 namespace nephroid::test {
 
-using spectral::ClusterMethod;
+using photons::ClusterMethod;
 using ui::ControlPoint;
 
 inline std::string shipped(const std::string& name) { return std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"; }
@@ -46,8 +47,8 @@ protected:
   /// What the clusters of the preset's curve are, without the panel.
   std::size_t true_count(ClusterMethod method) const
   {
-    return spectral::cluster_wavelengths(optics::sample_n(optics::control_points(dispersion().table), optics::Outside::automatic),
-                                         spectral::settings(*workbench.preset()).threshold_deg, method)
+    return photons::cluster_wavelengths(optics::sample_n(optics::control_points(dispersion().table), optics::Outside::automatic),
+                                        spectral::settings(*workbench.preset()).threshold_deg, method)
         .clusters.size();
   }
   void expect_true_counts() const

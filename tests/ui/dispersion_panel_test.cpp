@@ -2,10 +2,11 @@
 // The panel "Dispersion" under an injected mouse: points are dragged, added and removed, clusters follow, what is
 // wrong becomes a message. Rows that come or go while one is dragged: the drag ends, and no other row goes where the mouse goes.
 #include "dispersion_fixture.h"
+#include "spectral/settings.h"
 
 namespace nephroid::ui::dispersion_panel_test {
 
-using spectral::ClusterMethod;
+using photons::ClusterMethod;
 
 class DispersionPanelTest : public test::DispersionFixture {};
 
@@ -115,11 +116,11 @@ TEST_F(DispersionPanelTest, SeveralGlassesAreClusteredTogether)
 {
   const preset::Dispersion flint = from_file(shipped("N-SF66")), crown = from_file(shipped("N-BK7"));
   open_glass({{"glass", flint}, {"other", crown}});
-  std::vector<spectral::Clustering> both;
+  std::vector<photons::Clustering> both;
   for (const char* name : {"N-SF66", "N-BK7"})
-    both.push_back(spectral::cluster_wavelengths(optics::sample_n(optics::load_dispersion(shipped(name)), optics::Outside::automatic), 0.05,
-                                                 ClusterMethod::optimal));
-  EXPECT_EQ(panel().model().clusters_of_run(), spectral::common_refinement(both).size());
+    both.push_back(photons::cluster_wavelengths(optics::sample_n(optics::load_dispersion(shipped(name)), optics::Outside::automatic), 0.05,
+                                                ClusterMethod::optimal));
+  EXPECT_EQ(panel().model().clusters_of_run(), photons::common_refinement(both).size());
   edit([](preset::Preset& p) { spectral::settings(p).method = ClusterMethod::brute_force, spectral::settings(p).step_nm = 4; });
   frames(2);
   EXPECT_EQ(panel().model().clusters_of_run(), 101u);

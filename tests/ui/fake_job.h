@@ -2,7 +2,7 @@
 // A job without a device for tests of the window: its picture is one colour that tells which camera it was made for.
 #pragma once
 #include "engine/engine.h"
-#include "spectral/energy.h"
+#include "photons/energy.h"
 #include "tests/support/test.h"
 #include "ui/state/workbench.h"
 

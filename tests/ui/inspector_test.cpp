@@ -2,6 +2,7 @@
 // The panel Inspector: pixels and rectangles taken by the mouse and by keys, what it says of them, and what it copies. Statistics of
 // rectangles against closed forms.
 #include "layered_runs.h"
+#include "spectral/settings.h"
 #include "ui/inspector/panel.h"
 #include "ui/inspector/pixels.h"
 #include "window_fixture.h"

@@ -5,6 +5,7 @@
 #include "optics/dispersion.h"
 #include "real_window.h"
 #include "scenes.h"
+#include "spectral/settings.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::panel_pictures_test {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Plan": what is left out can be computed all the same by a click, which is an edit of the preset.
+#include "spectral/settings.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::plan_panel_test {

@@ -21,7 +21,7 @@ protected:
   {
     edit([&](preset::Preset& p) { p.scene.lights[0].power_w = watts; }, 1, live);
   }
-  double shown_power() const { return spectral::energy_of(*workbench.run().snapshot()).emitted_w; }
+  double shown_power() const { return photons::energy_of(*workbench.run().snapshot()).emitted_w; }
   bool shows(double watts)
   {
     return until([&] { return workbench.run().snapshot_is_current() && shown_power() == watts; });

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits of a light's spectrum, and what the panel "Spectra" makes of a preset: without a window.
 #include "optics/spectrum.h"
+#include "photons/clusters/clusters.h"
+#include "photons/effort/importance.h"
 #include "scene/materials.h"
 #include "scenes.h"
-#include "spectral/clusters/clusters.h"
-#include "spectral/effort/importance.h"
+#include "spectral/settings.h"
 #include "ui/spectral/spectra/curves.h"
 
 namespace nephroid::ui::spectra_edits_test {
@@ -117,7 +118,7 @@ TEST(SpectraMaker, LayersHaveTheClustersOfTheRun)
   const Spectra& spectra = maker.update(preset, seen);
   const scene::Scene scene = scene::load_scene(preset);
   EXPECT_EQ(spectra.why_no_u, "");
-  EXPECT_THAT(spectra.clusters, SizeIs(spectral::scene_clusters(spectral::settings(preset), scene).size()));
+  EXPECT_THAT(spectra.clusters, SizeIs(photons::scene_clusters(spectral::settings(preset), scene).size()));
   preset.scene.lights[0].spectrum.illuminant = "A"; // no new run
   EXPECT_EQ(maker.update(preset, seen).why_no_u, "");
   spectral::settings(preset).threshold_deg = 1;
@@ -132,12 +133,12 @@ TEST(SpectraMaker, WeighsSeveralLightsByTheirWattsAsTheyAreNow)
   preset.scene.lights[1].spectrum.illuminant = "A";
   SpectraMaker maker;
   const auto seen = seen_of(preset);
-  for (const auto effort : {spectral::Settings::Effort::importance, spectral::Settings::Effort::power}) {
+  for (const auto effort : {photons::Settings::Effort::importance, photons::Settings::Effort::power}) {
     spectral::settings(preset).effort = effort;
     for (const double watts : {0.0, 10.0, 90.0}) { // looked at with 10 W
       preset.scene.lights[1].power_w = watts;
       const scene::Scene scene = scene::load_scene(preset);
-      const auto expected = spectral::wavelength_importance(spectral::settings(preset), scene, scene::build_bvh(scene.geometry));
+      const auto expected = photons::wavelength_importance(spectral::settings(preset), scene, scene::build_bvh(scene.geometry));
       EXPECT_EQ(maker.update(preset, seen).importance.u, expected.u) << watts << " W";
     }
   }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel "Spectra": the mouse edits a light's spectrum, one gesture one entry; its numbers are the engine's; what is
 // wrong is a sentence in it.
+#include "photons/tables/run_tables.h"
 #include "scene/materials.h"
 #include "scenes.h"
-#include "spectral/tables/run_tables.h"
+#include "spectral/settings.h"
 #include "ui/spectral/spectra/panel.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::spectra_panel_test {
 
 using Type = preset::LightSpectrum::Type;
-using Effort = spectral::Settings::Effort;
+using Effort = photons::Settings::Effort;
 
 constexpr const char* table = R"({"type": "table", "table": [[400, 0.2], [500, 1], [600, 0.5], [700, 0.8]]})";
 
@@ -138,30 +139,30 @@ TEST_F(SpectraPanelTest, ItsNumbersAreTheEngines)
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   for (const Effort effort : {Effort::power, Effort::equal, Effort::importance, Effort::radziszewski, Effort::random})
-    for (const auto cluster : {spectral::Importance::Cluster::maximum, spectral::Importance::Cluster::mean})
+    for (const auto cluster : {photons::Importance::Cluster::maximum, photons::Importance::Cluster::mean})
       for (const bool geometry : {true, false}) {
         spectral::settings(preset).effort = effort;
         spectral::settings(preset).importance = {cluster, geometry};
         spectral::settings(preset).estimator =
-            effort == Effort::random ? spectral::Settings::Estimator::sppm : spectral::Settings::Estimator::automatic;
+            effort == Effort::random ? photons::Settings::Estimator::sppm : photons::Settings::Estimator::automatic;
         const int made = runs.made;
         workbench.apply({command::Edit{"effort", preset}});
         ASSERT_TRUE(until([&] { return runs.made > made && workbench.run().snapshot_is_current(); }));
         frames(2);
         ASSERT_EQ(spectra().why_no_u, "");
-        const spectral::WavelengthImportance expected = spectral::wavelength_importance(spectral::settings(preset), scene, bvh);
+        const photons::WavelengthImportance expected = photons::wavelength_importance(spectral::settings(preset), scene, bvh);
         EXPECT_EQ(spectra().importance.u, expected.u);
         ASSERT_EQ(spectra().importance.surroundings.size(), expected.surroundings.size());
         for (std::size_t i = 0; i < expected.surroundings.size(); ++i)
           EXPECT_EQ(spectra().importance.surroundings[i].lightness, expected.surroundings[i].lightness);
-        const spectral::RunTables tables = spectral::make_lit_tables(preset, scene, bvh, {});
+        const photons::RunTables tables = photons::make_lit_tables(spectral::settings(preset), scene, bvh, {});
         ASSERT_EQ(spectra().clusters.size(), tables.wavelengths.clusters.size());
         std::int64_t sum = 0;
         for (std::size_t c = 0; c < tables.importance.size(); ++c) {
           EXPECT_EQ(spectra().clusters[c].wavelengths, tables.wavelengths.clusters[c]);
           EXPECT_NEAR(spectra().clusters[c].importance, tables.importance[c], 1e-12);
-          EXPECT_EQ(spectra().clusters[c].iterations, spectral::iterations(tables.importance[c], 100));
-          sum += spectral::iterations(tables.importance[c], 100);
+          EXPECT_EQ(spectra().clusters[c].iterations, photons::iterations(tables.importance[c], 100));
+          sum += photons::iterations(tables.importance[c], 100);
         }
         EXPECT_EQ(spectra().iterations(), sum);
         EXPECT_EQ(spectra().brute_force(), 40100);
@@ -172,7 +173,7 @@ TEST_F(SpectraPanelTest, WhatDealsOutTheWorkIsFollowed)
 {
   open_room(R"("D65")");
   const std::int64_t before = spectra().iterations();
-  edit([&](preset::Preset& p) { spectral::settings(p).importance.cluster = spectral::Importance::Cluster::mean; });
+  edit([&](preset::Preset& p) { spectral::settings(p).importance.cluster = photons::Importance::Cluster::mean; });
   frame();
   EXPECT_LT(spectra().iterations(), before) << "without waiting for a run";
 }

@@ -2,7 +2,8 @@
 // The tables that engine 1 hands to its kernels: targets that enclose, sums over wavelength, cdfs exact to the bit, which wavelengths glass
 // and mirrors take alike; and the plan's reasons.
 #include "optics/spectrum.h"
-#include "spectral/clusters/clusters.h"
+#include "photons/clusters/clusters.h"
+#include "spectral/settings.h"
 #include "tests/support/plans.h"
 #include "tracing/scales.h"
 #include "tracing/targets.h"
@@ -11,7 +12,7 @@ namespace nephroid::device_scene_test {
 
 using nephroid::tracing::exact_cdf;
 using nephroid::tracing::exact_cdf_from_zero;
-using namespace nephroid::spectral;
+using namespace nephroid::photons;
 
 preset::Preset scene_with(const preset::Shape& shape, const preset::Material& material)
 {
@@ -88,7 +89,7 @@ TEST(WavelengthTables, AddUpToTheWholeSpectrum)
   coloured.dispersion.coefficients = {1.5, 0.01};
   const preset::Preset p = scene_with({}, coloured);
   const scene::Scene scene = scene::load_scene(p);
-  const spectral::RunTables tables = tables_of(p);
+  const photons::RunTables tables = tables_of(p);
   const tracing::WavelengthTables& w = tables.wavelengths;
   EXPECT_GT(w.clusters.size(), 3u);
   EXPECT_EQ(w.cluster_wavelengths.size(), 401u);
@@ -197,7 +198,7 @@ TEST(SpectralPlan, LeavesOutWhatASceneDoesNotNeedAndSaysWhy)
 TEST(SpectralPlan, SaysWhenAPassNeedsMorePhotons)
 {
   preset::Preset p = scene_with({}, glass(1.5));
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   spectral::settings(p).photons_per_pass = 1;
   EXPECT_THAT(plan_of(p).notes, Contains(HasSubstr("raised from 1 to 401")));
 }
@@ -209,7 +210,7 @@ TEST(SpectralPlan, SaysThatStepsDoNothingWithoutBruteForce)
   spectral::settings(p).step_nm = 4;
   EXPECT_THAT(plan_of(p).notes,
               ElementsAre("spectral.step_nm: 4 does nothing here: spectral.method is optimal, and only brute_force has steps"));
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   EXPECT_THAT(plan_of(p).notes, IsEmpty());
 }
 

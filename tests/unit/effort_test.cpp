@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the photons of a pass are dealt to lights and clusters: after spectral.effort, by measured variance, and as numbered emitters.
-#include "spectral/effort/emitters.h"
+#include "photons/effort/emitters.h"
+#include "spectral/settings.h"
 #include "tests/support/plans.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::effort_test {
 
-using spectral::RunTables;
-using Effort = spectral::Settings::Effort;
-using spectral::VarianceDeal;
+using photons::RunTables;
+using Effort = photons::Settings::Effort;
+using photons::VarianceDeal;
 
 constexpr unsigned photons = 1 << 16;
 
@@ -77,11 +78,11 @@ TEST(DealtEffort, EqualGivesEveryClusterTheSame)
 TEST(DealtEffort, FollowsTheImportanceOfClusters)
 {
   for (const Effort effort : {Effort::importance, Effort::radziszewski})
-    for (const auto which : {spectral::Importance::Cluster::maximum, spectral::Importance::Cluster::mean}) {
+    for (const auto which : {photons::Importance::Cluster::maximum, photons::Importance::Cluster::mean}) {
       preset::Preset p = lit_ball(effort);
       spectral::settings(p).importance.cluster = which;
       const RunTables tables = tables_of(p);
-      EXPECT_EQ(tables.importance, spectral::cluster_importance(importance_of(p).u, tables.wavelengths.clusters, which));
+      EXPECT_EQ(tables.importance, photons::cluster_importance(importance_of(p).u, tables.wavelengths.clusters, which));
       EXPECT_LT(*std::min_element(tables.importance.begin(), tables.importance.end()), 0.9);
       expect_clusters_in_proportion(tables, tables.importance);
     }
@@ -114,7 +115,7 @@ TEST(DealtEffort, LeavesNoClusterWithLightOut)
   floor.type = preset::Reflectance::Type::table;
   floor.table = {{599, 0}, {600, 1}};
   const RunTables tables = tables_of(p);
-  EXPECT_EQ(spectral::iterations(*std::min_element(tables.importance.begin(), tables.importance.end()), 2000), 1);
+  EXPECT_EQ(photons::iterations(*std::min_element(tables.importance.begin(), tables.importance.end()), 2000), 1);
   EXPECT_EQ(tables.emitters.size(), 2 * tables.wavelengths.clusters.size());
 }
 
@@ -153,13 +154,13 @@ TEST(DealtEffort, IsInThePlan)
 
 TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
 {
-  EXPECT_THAT(spectral::deal_out({1, 1, 2}, 8), ElementsAre(2, 3, 3)); // 1 each; then 5 by rounding the running sums 1.25, 2.5, 5
-  EXPECT_THAT(spectral::deal_out({1, 0, 1e-9}, 100), ElementsAre(99, 0, 1));
-  EXPECT_THAT(spectral::deal_out({1, 1, 1}, 1), ElementsAre(1, 1, 1));
-  EXPECT_THAT(spectral::deal_out({0, 0}, 10), ElementsAre(0, 0));
+  EXPECT_THAT(photons::deal_out({1, 1, 2}, 8), ElementsAre(2, 3, 3)); // 1 each; then 5 by rounding the running sums 1.25, 2.5, 5
+  EXPECT_THAT(photons::deal_out({1, 0, 1e-9}, 100), ElementsAre(99, 0, 1));
+  EXPECT_THAT(photons::deal_out({1, 1, 1}, 1), ElementsAre(1, 1, 1));
+  EXPECT_THAT(photons::deal_out({0, 0}, 10), ElementsAre(0, 0));
   std::vector<double> weights(401);
   for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::pow(0.9, static_cast<double>(i));
-  const std::vector<unsigned> counts = spectral::deal_out(weights, 1 << 18);
+  const std::vector<unsigned> counts = photons::deal_out(weights, 1 << 18);
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), 1u << 18);
 }
 
@@ -167,9 +168,9 @@ TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
 TEST(Emitters, AreNumberedAndThoseOfALightTogether)
 {
   const std::vector<shared::DeviceEmitter> emitters =
-      spectral::make_emitters({{1, 0, 0, 0.5}, {1, 0, 1, 0.25}, {2, 0, 2, 0.25}, {3, 1, 0, 0.75}, {0, 1, 1, 0}, {3, 1, 2, 0.25}}, 1005);
+      photons::make_emitters({{1, 0, 0, 0.5}, {1, 0, 1, 0.25}, {2, 0, 2, 0.25}, {3, 1, 0, 0.75}, {0, 1, 1, 0}, {3, 1, 2, 0.25}}, 1005);
   ASSERT_EQ(emitters.size(), 5u);
-  EXPECT_EQ(spectral::count_photons(emitters), 1005u);
+  EXPECT_EQ(photons::count_photons(emitters), 1005u);
   const unsigned counts[] = {101, 101, 201, 301, 301}; // 1 each, and 1000 as 1 : 1 : 2 : 3 : 3
   const int lights[] = {0, 0, 0, 1, 1}, clusters[] = {0, 1, 2, 0, 2};
   const float shares[] = {0.5f, 0.25f, 0.25f, 0.75f, 0.25f};
@@ -188,18 +189,18 @@ TEST(Emitters, AreNumberedAndThoseOfALightTogether)
 
 TEST(Emitters, AreNoneInTheDark)
 {
-  EXPECT_TRUE(spectral::make_emitters({{0, 0, 0, 0}, {0, 1, 0, 0}}, 100).empty());
-  EXPECT_TRUE(spectral::make_emitters({}, 100).empty());
-  EXPECT_EQ(spectral::count_photons({}), 0u);
+  EXPECT_TRUE(photons::make_emitters({{0, 0, 0, 0}, {0, 1, 0, 0}}, 100).empty());
+  EXPECT_TRUE(photons::make_emitters({}, 100).empty());
+  EXPECT_EQ(photons::count_photons({}), 0u);
 }
 
 TEST(Emitters, SequencesAreLongerThan32Bits)
 {
   shared::DeviceEmitter emitter{.sequence_start = 0xfffffff0u};
-  spectral::advance_sequence(emitter, 0x20);
+  photons::advance_sequence(emitter, 0x20);
   EXPECT_EQ(emitter.sequence_start, 0x10u);
   EXPECT_EQ(emitter.sequence_start_high, 1u);
-  spectral::advance_sequence(emitter, std::uint64_t{5} << 32);
+  photons::advance_sequence(emitter, std::uint64_t{5} << 32);
   EXPECT_EQ(emitter.sequence_start, 0x10u);
   EXPECT_EQ(emitter.sequence_start_high, 6u);
 }
@@ -211,7 +212,7 @@ std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts)
     shared::DeviceEmitter emitter{.photon_count = count};
     all.push_back(emitter);
   }
-  spectral::number_photons(all);
+  photons::number_photons(all);
   return all;
 }
 

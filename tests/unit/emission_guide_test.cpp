@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where photons and samples go: what is learned about where photons matter, the cells that a film of layers has, the pixels in which a path
 // may meet glass.
-#include "spectral/effort/emitters.h"
-#include "spectral/relight/layer_film.h"
-#include "spectral/relight/layer_light.h"
-#include "spectral/sight.h"
+#include "photons/effort/emitters.h"
+#include "photons/relight/layer_film.h"
+#include "photons/relight/layer_light.h"
+#include "photons/sight.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::emission_guide_test {
 
-using spectral::EmissionGuide;
-using namespace nephroid::spectral;
+using photons::EmissionGuide;
+using namespace nephroid::photons;
 
 constexpr std::size_t guide_cells = GUIDE_CELLS;
 constexpr double even = 1.0 / guide_cells;
@@ -20,7 +20,7 @@ constexpr double dark_part = 0.15; // of the photons, spread evenly whatever was
 
 std::size_t cell_at(std::size_t x, std::size_t y, std::size_t z) { return (x * GUIDE_BINS_Y + y) * GUIDE_BINS_Z + z; }
 
-/// The chance of each cell of a light, as the three cdfs of kernels/spectral/guide.h give it.
+/// The chance of each cell of a light, as the three cdfs of kernels/photons/guide.h give it.
 std::vector<double> chances(const EmissionGuide& guide, std::size_t light = 0)
 {
   const auto table = guide.table().begin() + static_cast<std::ptrdiff_t>(light * GUIDE_FLOATS);
@@ -112,7 +112,7 @@ TEST(EmissionGuide, NeighboursLearnFromEachOther)
 }
 
 // Moments over 18 orders of magnitude, several deals, two lights of which one is dark: every chance is above 0 by what is spread evenly,
-// and they are all there is. So with the density chance * cells that a photon is divided by (kernels/spectral/guide.h), the mean of any f
+// and they are all there is. So with the density chance * cells that a photon is divided by (kernels/photons/guide.h), the mean of any f
 // over guided photons is sum chance * f / (chance * cells), the even mean.
 TEST(EmissionGuide, EveryCellKeepsAChance)
 {
@@ -285,7 +285,7 @@ TEST(GlassPixels, AreAllThatAPathMayMeetGlassIn)
     const scene::Bvh bvh = scene::build_bvh(scene.geometry);
     const scene::Camera& c = scene.camera;
     std::vector<bool> listed(width * height, false), met(width * height, false);
-    for (const std::uint32_t pixel : spectral::glass_pixels(scene)) listed[pixel] = true;
+    for (const std::uint32_t pixel : photons::glass_pixels(scene)) listed[pixel] = true;
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(0, 1);
     for (int i = 0; i < 200000; ++i) {
@@ -311,7 +311,7 @@ TEST(GlassPixels, AreNoneWhereNoGlassIsInView)
 {
   preset::Preset p = ball_and_mirror({2, 3, 8});
   p.scene.camera.target = {4, 5, 16};
-  EXPECT_TRUE(spectral::glass_pixels(scene::load_scene(p)).empty());
+  EXPECT_TRUE(photons::glass_pixels(scene::load_scene(p)).empty());
 }
 
 } // namespace nephroid::emission_guide_test

@@ -2,12 +2,13 @@
 // The importance of wavelengths (4.15) in scenes whose surroundings have a closed form: one material all round, and rectangles whose
 // solid angles are known.
 #include "optics/spectrum.h"
+#include "spectral/settings.h"
 #include "tests/support/plans.h"
 
 namespace nephroid::importance_test {
 
-using spectral::WavelengthImportance;
-using Effort = spectral::Settings::Effort;
+using photons::WavelengthImportance;
+using Effort = photons::Settings::Effort;
 using optics::Spectrum;
 using std::numbers::pi;
 
@@ -287,24 +288,24 @@ TEST(Importance, OfAClusterIsTheLargestOrTheMean)
   Spectrum u{};
   u[3] = 0.25, u[4] = 1, u[5] = 0.5;
   const std::vector<std::vector<int>> clusters{{3, 4, 5, 6}, {0}, {5, 3}};
-  using Cluster = spectral::Importance::Cluster;
-  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::maximum), ElementsAre(1, 0, 0.5));
-  EXPECT_THAT(spectral::cluster_importance(u, clusters, Cluster::mean), ElementsAre(0.4375, 0, 0.375));
+  using Cluster = photons::Importance::Cluster;
+  EXPECT_THAT(photons::cluster_importance(u, clusters, Cluster::maximum), ElementsAre(1, 0, 0.5));
+  EXPECT_THAT(photons::cluster_importance(u, clusters, Cluster::mean), ElementsAre(0.4375, 0, 0.375));
 }
 
 // ceil(u N), and never two turns in one pass, so that sppm can take them as the passes go by.
 TEST(Iterations, GrowByAtMostOneAPass)
 {
-  EXPECT_EQ(spectral::iterations(0, 1000), 0);
-  EXPECT_EQ(spectral::iterations(1e-9, 1), 1);
-  EXPECT_EQ(spectral::iterations(0.5, 3), 2);
-  EXPECT_EQ(spectral::iterations(1, preset::max_passes), preset::max_passes);
+  EXPECT_EQ(photons::iterations(0, 1000), 0);
+  EXPECT_EQ(photons::iterations(1e-9, 1), 1);
+  EXPECT_EQ(photons::iterations(0.5, 3), 2);
+  EXPECT_EQ(photons::iterations(1, preset::max_passes), preset::max_passes);
   for (int i = 0; i <= 1000; ++i) {
     const double u = i == 1000 ? std::nextafter(1.0, 0.0) : std::pow(i / 999.0, 3);
-    std::int64_t before = spectral::iterations(u, 0);
+    std::int64_t before = photons::iterations(u, 0);
     EXPECT_EQ(before, 0);
     for (std::int64_t p = 1; p <= 3000; ++p) {
-      const std::int64_t now = spectral::iterations(u, p);
+      const std::int64_t now = photons::iterations(u, p);
       ASSERT_TRUE(now == before || now == before + 1) << u << " " << p;
       ASSERT_GE(static_cast<double>(now), u * static_cast<double>(p));
       before = now;

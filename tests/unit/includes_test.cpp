@@ -109,7 +109,7 @@ Folders engine_folders()
   return engines;
 }
 
-/// The engine in whose folder a file is (app/spectral, app/cli/spectral, ui/spectral/spectra, kernels/spectral); empty: in none.
+/// The engine in whose folder a file is (app/spectral, app/cli/spectral, ui/spectral/spectra, kernels/environment); empty: in none.
 std::string engine_of(const fs::path& file, const Folders& engines)
 {
   for (const fs::path& part : file.parent_path())
@@ -311,7 +311,7 @@ TEST(Includes, breaks_are_seen)
   EXPECT_EQ(break_of("ui", "cli/verb.h", table), "ui may not include cli");
   EXPECT_EQ(break_of("base", "optics/wavelength.h", table), "base may not include optics");
   EXPECT_EQ(break_of("optics", "compute/compute.h", table), "optics may not include compute");
-  EXPECT_EQ(break_of("compute", "kernels/spectral/photon_map_types.h", table), "");
+  EXPECT_EQ(break_of("compute", "kernels/photons/photon_map_types.h", table), "");
   EXPECT_EQ(break_of("compute", "kernels/tracing/random.h", table), "compute may not include kernels");
   EXPECT_EQ(break_of("optics", "CL/cl.h", table), "only compute may know this library");
   EXPECT_EQ(break_of("cli", "OpenImageIO/imageio.h", table), "only image may know this library");

@@ -3,6 +3,7 @@
 #include "measure/measured_job.h"
 
 #include "measure/run_files.h"
+#include "spectral/settings.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"
 

@@ -15,7 +15,7 @@ namespace nephroid::plan_test {
 
 using nephroid::plan::Plan;
 using Json = nlohmann::json;
-using Estimator = spectral::Settings::Estimator;
+using Estimator = photons::Settings::Estimator;
 using namespace nephroid::cli;
 
 Plan example()

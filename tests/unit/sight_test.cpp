@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera's frame and pixel rays by hand, the corners of objects and the box about them, host rays through the tree against every
 // triangle on its own, and where a look through a pixel ends, against Snell's law by hand.
-#include "spectral/clusters/clusters.h"
-#include "spectral/sight.h"
+#include "photons/clusters/clusters.h"
+#include "photons/sight.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/presets.h"
@@ -119,7 +119,7 @@ TEST(Corners, TrianglesThatTheSceneDoesNotHoldAreRefused)
   outline.geometry = {};
   outline.materials[0].absorbs = true;
   outline.materials[0].k.fill(1e-6);
-  EXPECT_EQ(error_of([&] { spectral::split_by_losses({{0, 1}}, outline, 8, 0.1); }).kind(), ErrorKind::failed);
+  EXPECT_EQ(error_of([&] { photons::split_by_losses({{0, 1}}, outline, 8, 0.1); }).kind(), ErrorKind::failed);
 }
 
 /// Möller and Trumbore 1997; infinity: not hit. Nothing in common with ray.cpp.
@@ -244,7 +244,7 @@ preset::Object& add(preset::Preset& p, const char* name, preset::Shape::Type typ
 }
 
 struct Seen {
-  spectral::Sight sight;
+  photons::Sight sight;
   glm::dvec3 place; ///< of its end, in the preset's coordinates
   std::string first, last;
 };
@@ -252,7 +252,7 @@ struct Seen {
 Seen see(const preset::Preset& p)
 {
   const scene::Scene scene = scene::load_scene(p);
-  const spectral::Sight sight = spectral::look_through_pixel(scene, scene::build_bvh(scene.geometry), 0, 0);
+  const photons::Sight sight = photons::look_through_pixel(scene, scene::build_bvh(scene.geometry), 0, 0);
   const auto name = [&](int object) { return object < 0 ? "" : scene.objects[static_cast<std::size_t>(object)].name; };
   return {sight, scene.origin + glm::dvec3(sight.last.position), name(sight.first.object), name(sight.last.object)};
 }

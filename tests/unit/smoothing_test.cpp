@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smoothed caustics on a floor that fills the lower part of the picture and a wall that fills the upper, from made pictures.
-#include "spectral/smoothing.h"
+#include "photons/smoothing.h"
 #include "tests/support/loaded_scenes.h"
 
 namespace nephroid::smoothing_test {
@@ -66,7 +66,7 @@ Moments moments(const std::vector<float>& rgb, int from, int to, int margin, std
 
 class Smoothing : public testing::Test, protected FloorAndWall {
 protected:
-  spectral::Smoothing smoothing{scene, bvh, spectral::Smoothing::Spread::everywhere};
+  photons::Smoothing smoothing{scene, bvh, photons::Smoothing::Spread::everywhere};
 };
 
 TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
@@ -162,7 +162,7 @@ scene::Scene two_walls(const preset::Object& between, double wall_height)
 /// Where photons are on the right alone they stay there, and are spread.
 void expect_no_light_on_the_left(const scene::Scene& scene)
 {
-  spectral::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), spectral::Smoothing::Spread::everywhere);
+  photons::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), photons::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int x, int) { return x >= size / 2 ? 1.0 : 0.0; }, 9);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -187,7 +187,7 @@ TEST_F(Smoothing, spreads_within_curved_glass)
 {
   const scene::Scene glass =
       two_walls(shape_object("ball", preset::Shape::Type::sphere, "glass", {.scale = {8, 8, 8}, .translate = {0, -4, 0}}), -20);
-  spectral::Smoothing within(glass, scene::build_bvh(glass.geometry), spectral::Smoothing::Spread::everywhere);
+  photons::Smoothing within(glass, scene::build_bvh(glass.geometry), photons::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int, int) { return 1.0; }, 11);
   const double variance = moments(photons.rgb, 16, size - 16, 16).variance, power = sum(photons.rgb);
   within.spread(photons.rgb, photons.error_draw);
@@ -223,8 +223,8 @@ struct Errors {
 Errors errors_of(const Density& density)
 {
   const FloorAndWall room;
-  spectral::Smoothing everywhere(room.scene, room.bvh, spectral::Smoothing::Spread::everywhere),
-      by_gain(room.scene, room.bvh, spectral::Smoothing::Spread::where_it_helps);
+  photons::Smoothing everywhere(room.scene, room.bvh, photons::Smoothing::Spread::everywhere),
+      by_gain(room.scene, room.bvh, photons::Smoothing::Spread::where_it_helps);
   const auto add_error = [&](const std::vector<float>& rgb, double& sum) {
     for (int y = size / 2 + 8; y < size - 8; ++y)
       for (int x = 8; x < size - 8; ++x) sum += std::pow(rgb[3 * static_cast<std::size_t>(y * size + x)] - density(x, y), 2);
@@ -279,7 +279,7 @@ TEST_F(Smoothing, leaves_a_picture_of_one_pixel_alone)
   p.scene.camera.resolution = {1, 1};
   const scene::Scene empty = scene::load_scene(p);
   std::vector<float> rgb{3, -1, 2}, draw{1, 1, 1};
-  spectral::Smoothing(empty, scene::build_bvh(empty.geometry), spectral::Smoothing::Spread::everywhere).spread(rgb, draw);
+  photons::Smoothing(empty, scene::build_bvh(empty.geometry), photons::Smoothing::Spread::everywhere).spread(rgb, draw);
   EXPECT_EQ(rgb, (std::vector<float>{3, -1, 2}));
   EXPECT_EQ(draw, (std::vector<float>{1, 1, 1}));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// spectral/stretch.h: what a splat is stretched along, without a device.
+// photons/stretch.h: what a splat is stretched along, without a device.
 #include "tests/support/test.h"
 #include "tracing/wavelength_tables.h"
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid clusters`: the wavelength clusters of a preset's glass or of a dispersion file.
-#include "spectral/clusters/clusters.h"
+#include "photons/clusters/clusters.h"
 #include "base/counted.h"
 #include "base/json_output.h"
 #include "cli/dispersion_input.h"
 #include "cli/spectral/wavelength_runs.h"
 #include "cli/verb.h"
+#include "photons/describe_settings.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "scene/materials.h"
-#include "spectral/describe_settings.h"
+#include "spectral/settings.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,8 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-using spectral::Clustering;
-using spectral::ClusterMethod;
+using photons::Clustering;
+using photons::ClusterMethod;
 
 struct ClusterOptions {
   std::string preset, ior, material, outside;
@@ -33,7 +34,7 @@ struct ClusterOptions {
 struct Task {
   optics::DispersionCurve curve;
   optics::Outside outside = optics::Outside::automatic;
-  double threshold_deg = spectral::Settings{}.threshold_deg;
+  double threshold_deg = photons::Settings{}.threshold_deg;
   ClusterMethod method = ClusterMethod::optimal;
 };
 
@@ -84,7 +85,7 @@ Task make_task(const ClusterOptions& options)
 void print_json(const Clustering& clustering)
 {
   Json clusters = Json::array();
-  for (const spectral::Cluster& c : clustering.clusters)
+  for (const photons::Cluster& c : clustering.clusters)
     clusters.push_back({{"wavelengths_nm", wavelengths_nm(c.wavelengths)}, {"n_mean", c.n_mean}, {"theta_deg2", c.theta_deg2}});
   const Json all{{"method", preset::word(clustering.method)},
                  {"threshold_deg", clustering.threshold_deg},
@@ -100,7 +101,7 @@ void print_text(const std::string& name, const Clustering& clustering)
              counted(clustering.clusters.size(), "cluster"), preset::word(clustering.method), clustering.threshold_deg,
              clustering.total_theta_deg2);
   fmt::print("{:>5} {:>10} {:>10}  {}\n", "count", "mean n", "deg^2", "wavelengths");
-  for (const spectral::Cluster& c : clustering.clusters)
+  for (const photons::Cluster& c : clustering.clusters)
     fmt::print("{:>5} {:>10.6f} {:>10.4f}  {}\n", c.wavelengths.size(), c.n_mean, c.theta_deg2, wavelength_runs(c.wavelengths));
 }
 
@@ -109,7 +110,7 @@ void print_clusters(const ClusterOptions& options)
   const Task task = make_task(options);
   const optics::Spectrum n = optics::sample_n(task.curve, task.outside);
   if (const std::string note = optics::outside_note(task.curve, task.outside); !note.empty()) fmt::print(stderr, "nephroid: {}\n", note);
-  const Clustering clustering = spectral::cluster_wavelengths(n, task.threshold_deg, task.method);
+  const Clustering clustering = photons::cluster_wavelengths(n, task.threshold_deg, task.method);
   options.json ? print_json(clustering) : print_text(task.curve.name, clustering);
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid importance`: how much each wavelength matters in a preset's scene, and the iterations that its clusters get for it.
-#include "spectral/effort/importance.h"
+#include "photons/effort/importance.h"
 #include "base/counted.h"
 #include "base/json_output.h"
 #include "cli/spectral/wavelength_runs.h"
 #include "cli/verb.h"
+#include "photons/clusters/clusters.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "spectral/clusters/clusters.h"
+#include "spectral/settings.h"
 #include "tracing/omissions.h"
 
 #include <nlohmann/json.hpp>
@@ -19,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-using Method = spectral::Settings::Effort;
+using Method = photons::Settings::Effort;
 
 struct ImportanceOptions {
   std::string preset, method;
@@ -37,7 +38,7 @@ struct Answer {
   std::string name;
   Method method = Method::importance;
   std::int64_t passes = 0;
-  spectral::WavelengthImportance importance;
+  photons::WavelengthImportance importance;
   std::vector<std::string> materials; ///< names of importance.surroundings
   std::vector<Row> rows;              ///< a cluster each
 };
@@ -53,14 +54,14 @@ std::vector<int> rendered(const std::vector<int>& cluster, const std::vector<boo
 std::vector<Row> make_rows(const preset::Preset& preset, const scene::Scene& scene, const Answer& answer)
 {
   std::vector<bool> lit(optics::wavelength_count, true);
-  const spectral::Settings& settings = spectral::settings(preset);
+  const photons::Settings& settings = spectral::settings(preset);
   if (preset.leave_out) lit = tracing::lit_wavelengths(scene);
   std::vector<Row> rows;
-  for (const std::vector<int>& cluster : spectral::scene_clusters(settings, scene)) {
+  for (const std::vector<int>& cluster : photons::scene_clusters(settings, scene)) {
     const std::vector<std::vector<int>> counted{rendered(cluster, lit)};
     const double importance =
-        counted[0].empty() ? 0 : spectral::cluster_importance(answer.importance.u, counted, settings.importance.cluster)[0];
-    rows.push_back({cluster, importance, spectral::iterations(importance, answer.passes)});
+        counted[0].empty() ? 0 : photons::cluster_importance(answer.importance.u, counted, settings.importance.cluster)[0];
+    rows.push_back({cluster, importance, photons::iterations(importance, answer.passes)});
   }
   return rows;
 }
@@ -74,10 +75,10 @@ Answer answer_for(preset::Preset preset, const std::string& method)
   Answer answer{preset.name,
                 effort,
                 preset.stop.passes.value_or(preset::default_passes),
-                spectral::wavelength_importance(spectral::settings(preset), scene, scene::build_bvh(scene.geometry)),
+                photons::wavelength_importance(spectral::settings(preset), scene, scene::build_bvh(scene.geometry)),
                 {},
                 {}};
-  for (const spectral::Surrounding& s : answer.importance.surroundings)
+  for (const photons::Surrounding& s : answer.importance.surroundings)
     answer.materials.push_back(scene.materials[static_cast<std::size_t>(s.material)].name);
   answer.rows = make_rows(preset, scene, answer);
   return answer;
@@ -94,7 +95,7 @@ void print_json(const Answer& answer)
     iterations.push_back(
         {{"wavelengths_nm", wavelengths_nm(row.wavelengths)}, {"importance", row.importance}, {"iterations", row.iterations}});
   for (std::size_t i = 0; i < answer.materials.size(); ++i) {
-    const spectral::Surrounding& s = answer.importance.surroundings[i];
+    const photons::Surrounding& s = answer.importance.surroundings[i];
     surroundings.push_back({{"material", answer.materials[i]}, {"share", s.share}, {"lightness", s.lightness}});
   }
   const Json object{{"name", answer.name},
@@ -115,7 +116,7 @@ void print_text(const Answer& answer)
              answer.method == Method::importance ? "light, luminosity and surroundings (4.15)" : "1 / cosh^2(0.0072 (lambda - 538))");
   if (!answer.materials.empty()) fmt::print("{:>7} {:>6}  {}\n", "share", "L*", "surrounding material");
   for (std::size_t i = 0; i < answer.materials.size(); ++i) {
-    const spectral::Surrounding& s = answer.importance.surroundings[i];
+    const photons::Surrounding& s = answer.importance.surroundings[i];
     fmt::print("{:>7.4f} {:>6.1f}  {}\n", s.share, s.lightness, answer.materials[i]);
   }
   fmt::print("{:>5} {:>10} {:>10}  {}\n", "count", "importance", "iterations", "wavelengths");

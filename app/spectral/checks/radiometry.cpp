@@ -161,7 +161,7 @@ Result coloured_mirror(const compute::Context& context, std::uint64_t seed)
   p.scene.lights[0].spectrum.illuminant = "D65";
   p.scene.camera.position = {-3, 1, 0};
   spectral::settings(p).photons_per_pass = 1 << 14;
-  const spectral::EnergyBalance e = spectral::energy_of(render(p, context));
+  const photons::EnergyBalance e = photons::energy_of(render(p, context));
   const optics::Spectrum light = optics::illuminant("D65"), patch = optics::colorchecker_patch("blue sky");
   double truth = 0;
   for (std::size_t i = 0; i < light.size(); ++i) truth += light[i] * patch[i];
@@ -203,7 +203,7 @@ preset::Preset everything(std::uint64_t seed)
 /// Counted in whole quanta, so nothing but the last conversion to watts rounds.
 Result energy(const compute::Context& context, std::uint64_t seed)
 {
-  const spectral::EnergyBalance e = spectral::energy_of(render(everything(seed), context));
+  const photons::EnergyBalance e = photons::energy_of(render(everything(seed), context));
   const double off = (e.deposited_w + e.missed_w + e.absorbed_w + e.escaped_w + e.lost_w) / e.emitted_w - 1;
   const bool all_there = e.deposited_w > 0 && e.missed_w > 0 && e.absorbed_w > 0 && e.escaped_w > 0 && e.refused_contributions == 0;
   return judged(

@@ -24,7 +24,7 @@ double z_of_transmitted(const compute::Context& context, preset::Preset p, doubl
   p.scene.camera.position = {0, 5, 0};
   p.scene.camera.up = {0, 0, -1};
   spectral::settings(p).photons_per_pass = photons;
-  const spectral::EnergyBalance e = spectral::energy_of(render(p, context));
+  const photons::EnergyBalance e = photons::energy_of(render(p, context));
   return (e.deposited_w / e.emitted_w - truth) / std::sqrt(truth * (1 - truth) / photons);
 }
 
@@ -126,7 +126,7 @@ Result prism(const compute::Context& context, std::uint64_t seed)
   material.dispersion.b.assign(std::begin(sf11_b), std::end(sf11_b));
   material.dispersion.c_um2.assign(std::begin(sf11_c), std::end(sf11_c));
   p.scene.objects.push_back(object("prism", {.type = preset::Shape::Type::prism, .height = side, .side = side}, "glass"));
-  spectral::settings(p).method = spectral::Settings::Method::brute_force;
+  spectral::settings(p).method = photons::Settings::Method::brute_force;
   spectral::settings(p).photons_per_pass = 1 << 14;
   double worst = 0;
   for (const double nm : {400.0, 450.0, 500.0, 600.0, 700.0}) {

@@ -70,10 +70,10 @@ double ball_lens_landing(double radius, double height, double n, double screen_z
   return (focus + screen_z) * std::tan(d);
 }
 
-spectral::RunTables device_tables(const preset::Preset& preset)
+photons::RunTables device_tables(const preset::Preset& preset)
 {
   const scene::Scene scene = scene::load_scene(preset);
-  return spectral::make_lit_tables(preset, scene, scene::build_bvh(scene.geometry), {});
+  return photons::make_lit_tables(spectral::settings(preset), scene, scene::build_bvh(scene.geometry), {});
 }
 
 std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context)
@@ -82,9 +82,9 @@ std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::Lea
       false;
   const scene::Scene scene = scene::load_scene(preset);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
-  spectral::RunPlan plan = spectral::make_plan(preset, scene, bvh, leave_out);
+  photons::RunPlan plan = spectral::make_plan(preset, scene, bvh, leave_out);
   share_programs(plan.defines);
-  return spectral::make_job(preset, scene, bvh, plan, context);
+  return photons::make_job(preset, scene, bvh, plan, context);
 }
 
 job::Snapshot render(const preset::Preset& preset, const compute::Context& context)

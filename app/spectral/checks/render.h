@@ -7,9 +7,9 @@
 #include "compute/compute.h"
 #include "job/job.h"
 #include "optics/colour.h"
+#include "photons/energy.h"
+#include "photons/tables/run_tables.h"
 #include "preset/preset.h"
-#include "spectral/energy.h"
-#include "spectral/tables/run_tables.h"
 
 #include <memory>
 #include <string>
@@ -25,7 +25,7 @@ std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::Lea
 job::Snapshot render(const preset::Preset& preset, const compute::Context& context);
 
 /// The tables that the engine would render the preset with.
-spectral::RunTables device_tables(const preset::Preset& preset);
+photons::RunTables device_tables(const preset::Preset& preset);
 
 /// The layer of that name, which must be there: throws failed else.
 inline const job::Layer& layer(const job::Snapshot& snapshot, std::string_view name)

@@ -18,11 +18,11 @@ inline preset::Preset empty_preset(int resolution = 64)
   p.unit = preset::Preset::Unit::m;
   p.scene.camera.resolution = {resolution, resolution};
   spectral::settings(p).direct = false;
-  spectral::settings(p).estimator = spectral::Settings::Estimator::splat;
+  spectral::settings(p).estimator = photons::Settings::Estimator::splat;
   spectral::settings(p).low_discrepancy = false;
   spectral::settings(p).photons_per_pass = 1 << 16;
-  spectral::settings(p).effort = spectral::Settings::Effort::power;
-  spectral::settings(p).smoothing = spectral::Settings::Smoothing::off;
+  spectral::settings(p).effort = photons::Settings::Effort::power;
+  spectral::settings(p).smoothing = photons::Settings::Smoothing::off;
   p.stop.passes = 1;
   return p;
 }

@@ -2,9 +2,9 @@
 // What kernels make of the engine's own tables.
 #include "check/device_arrays.h"
 #include "optics/spectrum.h"
+#include "photons/tables/run_tables.h"
 #include "spectral/checks/render.h"
 #include "spectral/checks/scene_parts.h"
-#include "spectral/tables/run_tables.h"
 
 #include <fmt/format.h>
 
@@ -127,7 +127,7 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   p.scene.materials["white"] = white();
   p.scene.objects = {object("ball", ball(1), "glass", at({0, 0, 0})), object("wall", quad(20, 20), "white", at({0, -2, 0}))};
   p.scene.lights = {light};
-  spectral::RunTables tables = device_tables(p);
+  photons::RunTables tables = device_tables(p);
   shared::DeviceLight& on_host = tables.lights.at(0);
   std::vector<shared::DeviceTarget> targets;
   for (const float4& s : spheres) targets.push_back({{s.x + on_host.position.x, s.y + on_host.position.y, s.z + on_host.position.z, s.w}});

@@ -3,9 +3,10 @@
 
 #include "base/files.h"
 #include "optics/dispersion.h"
+#include "photons/clusters/clusters.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
-#include "spectral/clusters/clusters.h"
+#include "spectral/settings.h"
 #include "ui/state/selection.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@
 namespace nephroid::ui {
 namespace {
 
-constexpr spectral::ClusterMethod methods[] = {spectral::ClusterMethod::optimal, spectral::ClusterMethod::thesis,
-                                               spectral::ClusterMethod::brute_force};
+constexpr photons::ClusterMethod methods[] = {photons::ClusterMethod::optimal, photons::ClusterMethod::thesis,
+                                              photons::ClusterMethod::brute_force};
 constexpr double beyond_nm = 120;                    ///< how far the line goes on outside of the 401 wavelengths,
 constexpr double lowest_nm = 100, highest_nm = 1500; ///< and how far at most where control points lie there
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -62,14 +63,14 @@ std::vector<std::string> used_dielectrics(const preset::Preset& preset)
 /// theta2 = asin(sin theta1 / n) at theta1 = 45 degrees; 90 degrees beyond the critical angle.
 double angle_at_45_deg(double n) { return std::asin(std::min(1.0, std::numbers::sqrt2 / 2 / n)) * 180 / std::numbers::pi; }
 
-double mean_angle_deg(double n) { return spectral::refraction_integral_deg2(n) / spectral::last_angle_deg; }
+double mean_angle_deg(double n) { return photons::refraction_integral_deg2(n) / photons::last_angle_deg; }
 
 /// angle: of refraction, as a function of n, falling.
 template <class Angle>
-Spread spread_of(const spectral::Clustering& clustering, const optics::Spectrum& n, Angle angle)
+Spread spread_of(const photons::Clustering& clustering, const optics::Spectrum& n, Angle angle)
 {
   Spread spread;
-  for (const spectral::Cluster& cluster : clustering.clusters) {
+  for (const photons::Cluster& cluster : clustering.clusters) {
     const double highest = n[static_cast<std::size_t>(cluster.wavelengths.front())];
     const double lowest = n[static_cast<std::size_t>(cluster.wavelengths.back())];
     if (highest == lowest) continue;
@@ -129,7 +130,7 @@ FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t
   }
 }
 
-ClusterFigures figures_of(spectral::Clustering clustering, const optics::Spectrum& n)
+ClusterFigures figures_of(photons::Clustering clustering, const optics::Spectrum& n)
 {
   ClusterFigures figures;
   figures.saving = static_cast<double>(optics::wavelength_count) / static_cast<double>(clustering.clusters.size());
@@ -174,7 +175,7 @@ bool DispersionModel::update_curve(const preset::Preset& preset, const std::stri
 void DispersionModel::update(const preset::Preset& preset, const std::string& material)
 {
   if (material_ == material && preset_ == preset) return;
-  const spectral::Settings& settings = spectral::settings(preset);
+  const photons::Settings& settings = spectral::settings(preset);
   std::erase_if(glasses_, [&](const auto& glass) { return !preset.scene.materials.contains(glass.first); });
   bool changed = std::exchange(material_, material) != material;
   changed |= update_curve(preset, material);
@@ -194,8 +195,8 @@ void DispersionModel::cluster()
   error_ = curve_->error;
   if (!error_.empty()) return;
   try {
-    for (const spectral::ClusterMethod method : methods)
-      figures_[static_cast<std::size_t>(method)] = figures_of(spectral::cluster_wavelengths(curve_->n, threshold_deg_, method), curve_->n);
+    for (const photons::ClusterMethod method : methods)
+      figures_[static_cast<std::size_t>(method)] = figures_of(photons::cluster_wavelengths(curve_->n, threshold_deg_, method), curve_->n);
     ++clusterings_made_;
   } catch (const std::exception& error) {
     error_ = error.what();
@@ -206,7 +207,7 @@ void DispersionModel::cluster()
 void DispersionModel::combine(const preset::Preset& preset)
 {
   clusters_of_run_.reset();
-  const spectral::Settings& settings = spectral::settings(preset);
+  const photons::Settings& settings = spectral::settings(preset);
   scene::Scene outline;
   for (const std::string& name : used_dielectrics(preset)) {
     update_curve(preset, name);
@@ -218,7 +219,7 @@ void DispersionModel::combine(const preset::Preset& preset)
     material.n = glass.n;
   }
   if (outline.objects.empty() || !error_.empty()) return;
-  clusters_of_run_ = spectral::scene_clusters(settings, outline).size();
+  clusters_of_run_ = photons::scene_clusters(settings, outline).size();
 }
 
 } // namespace nephroid::ui

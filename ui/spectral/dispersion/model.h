@@ -5,10 +5,10 @@
 #pragma once
 #include "base/place.h"
 #include "optics/wavelength.h"
+#include "photons/clusters/clusters.h"
+#include "photons/settings.h"
 #include "preset/field.h"
 #include "preset/preset.h"
-#include "spectral/clusters/clusters.h"
-#include "spectral/settings.h"
 #include "ui/widgets/rows.h"
 
 namespace nephroid::ui {
@@ -56,14 +56,14 @@ struct Spread {
 };
 
 struct ClusterFigures {
-  spectral::Clustering clustering;
+  photons::Clustering clustering;
   double saving = 1;  ///< 401 / clusters: how many times fewer paths than brute force
   Spread at_45;       ///< at an angle of incidence of 45 degrees
   Spread over_angles; ///< the mean over 0..89 degrees of incidence, which is what the threshold alpha is about
 };
 
 /// n: the curve that was clustered.
-ClusterFigures figures_of(spectral::Clustering clustering, const optics::Spectrum& n);
+ClusterFigures figures_of(photons::Clustering clustering, const optics::Spectrum& n);
 
 class DispersionModel {
 public:
@@ -73,8 +73,8 @@ public:
   const GlassCurve& curve() const { return *curve_; }
   /// Empty where there are clusters, else why not.
   const std::string& error() const { return error_; }
-  /// In the order of spectral::Settings::Method; only without an error().
-  const ClusterFigures& figures(spectral::ClusterMethod method) const { return figures_[static_cast<std::size_t>(method)]; }
+  /// In the order of photons::Settings::Method; only without an error().
+  const ClusterFigures& figures(photons::ClusterMethod method) const { return figures_[static_cast<std::size_t>(method)]; }
   /// Of the preset's method: the clusters of the curve, and which of them each wavelength is in.
   const ClusterFigures& chosen() const { return figures(method_); }
   const std::array<std::size_t, optics::wavelength_count>& cluster_of() const { return cluster_of_; }
@@ -101,7 +101,7 @@ private:
   preset::Preset preset_;                ///< what all is of,
   std::string material_;                 ///< and the one that is shown
   double threshold_deg_ = 0;
-  spectral::ClusterMethod method_ = spectral::ClusterMethod::optimal;
+  photons::ClusterMethod method_ = photons::ClusterMethod::optimal;
 
   const GlassCurve* curve_ = nullptr; ///< in glasses_
   std::string error_;

@@ -2,8 +2,9 @@
 #include "ui/spectral/dispersion/panel.h"
 
 #include "base/counted.h"
+#include "photons/describe_settings.h"
 #include "preset/choices.h"
-#include "spectral/describe_settings.h"
+#include "spectral/settings.h"
 #include "ui/state/selection.h"
 #include "ui/widgets/theme.h"
 
@@ -167,7 +168,7 @@ void DispersionPanel::draw_methods(const Context& context) const
                "By how many degrees the refraction angle differs inside a cluster at 45 degrees of incidence: mean over the wavelengths / "
                "greatest");
   heading_cell("0..89 deg", "The same as the mean over 0 to 89 degrees of incidence, which spectral.threshold_deg is about");
-  for (const auto& choice : preset::choices<spectral::ClusterMethod>) {
+  for (const auto& choice : preset::choices<photons::ClusterMethod>) {
     const ClusterFigures& figures = model_.figures(choice.value);
     const std::string name(choice.name == "brute_force" ? "brute force" : choice.name);
     ImGui::TableNextRow();

@@ -37,7 +37,7 @@ Columns columns_of(const DispersionModel& model, bool sorted)
     columns.wavelength[at++] = wavelength;
   };
   if (sorted) {
-    for (const spectral::Cluster& cluster : model.chosen().clustering.clusters)
+    for (const photons::Cluster& cluster : model.chosen().clustering.clusters)
       for (const int wavelength : cluster.wavelengths) add(wavelength);
   } else
     for (int wavelength = 0; wavelength < optics::wavelength_count; ++wavelength) add(wavelength);
@@ -145,8 +145,8 @@ void draw_values(const DispersionModel& model, int wavelength)
   if (curve.has_k) values += fmt::format(", k = {:.3g}", curve.k[index]);
   ImGui::TextUnformatted(values.c_str());
   const std::size_t c = model.cluster_of()[index];
-  const spectral::Clustering& clustering = model.chosen().clustering;
-  const spectral::Cluster& cluster = clustering.clusters[c];
+  const photons::Clustering& clustering = model.chosen().clustering;
+  const photons::Cluster& cluster = clustering.clusters[c];
   draw_text(cluster_colour(c), fmt::format("cluster {} of {}: {}, mean n {:.6g}", c + 1, clustering.clusters.size(),
                                            counted(cluster.wavelengths.size(), "wavelength"), cluster.n_mean));
   ImGui::TextDisabled("%s", stretches(model, c).c_str());

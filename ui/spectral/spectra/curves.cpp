@@ -5,9 +5,10 @@
 #include "base/files.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
+#include "photons/clusters/clusters.h"
+#include "photons/effort/importance.h"
 #include "scene/materials.h"
-#include "spectral/clusters/clusters.h"
-#include "spectral/effort/importance.h"
+#include "spectral/settings.h"
 #include "tracing/omissions.h"
 #include "tracing/wavelength_tables.h"
 #include "ui/widgets/plots.h"
@@ -86,19 +87,19 @@ void read_materials(const preset::Preset& preset, scene::Scene& outline)
 }
 
 /// What the clusters of a scene hang on.
-auto grouping(const spectral::Settings& settings)
+auto grouping(const photons::Settings& settings)
 {
   return std::tuple(settings.method, settings.threshold_deg, settings.step_nm, settings.differentials, settings.relight);
 }
 
 /// Of each cluster, as the engine deals out its work.
-std::vector<double> importance_of(const spectral::Settings& settings, const Spectrum& u, const tracing::WavelengthTables& tables,
+std::vector<double> importance_of(const photons::Settings& settings, const Spectrum& u, const tracing::WavelengthTables& tables,
                                   const scene::Scene& outline, const std::vector<double>& watts)
 {
-  using Effort = spectral::Settings::Effort;
+  using Effort = photons::Settings::Effort;
   if (settings.effort == Effort::importance || settings.effort == Effort::radziszewski)
-    return spectral::cluster_importance(u, tables.clusters, settings.importance.cluster);
-  return spectral::make_cluster_shares(settings, outline, {}, watts, tables).importance; // without rays
+    return photons::cluster_importance(u, tables.clusters, settings.importance.cluster);
+  return photons::make_cluster_shares(settings, outline, {}, watts, tables).importance; // without rays
 }
 
 } // namespace
@@ -108,9 +109,9 @@ std::any SeenByGlass::look(const preset::Preset& preset, const scene::Scene& sce
   auto seen = std::make_shared<SeenByGlass>();
   for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
   if (!scene.lights.empty() && is_environment(scene.lights.back())) seen->environment = scene.lights.back();
-  seen->whereabouts = spectral::whereabouts(spectral::settings(preset), scene, bvh);
+  seen->whereabouts = photons::whereabouts(spectral::settings(preset), scene, bvh);
   seen->settings = spectral::settings(preset);
-  seen->clusters = spectral::scene_clusters(spectral::settings(preset), scene);
+  seen->clusters = photons::scene_clusters(spectral::settings(preset), scene);
   return std::shared_ptr<const SeenByGlass>(std::move(seen));
 }
 
@@ -196,18 +197,17 @@ void SpectraMaker::make_groups(const preset::Preset& now)
     return;
   }
   try {
-    groups_ = spectral::scene_clusters(spectral::settings(now), outline_);
+    groups_ = photons::scene_clusters(spectral::settings(now), outline_);
   } catch (const Error& error) {
     groups_error_ = error.text();
   }
 }
 
 /// Whether what the glass was seen to see is what u hangs on now.
-bool SpectraMaker::is_of_this_scene(const spectral::Settings& settings) const
+bool SpectraMaker::is_of_this_scene(const photons::Settings& settings) const
 {
   if (!seen_ || seen_->materials != spectra_.materials || seen_->whereabouts.towards.size() != outline_.lights.size()) return false;
-  const bool rays =
-      settings.effort == spectral::Settings::Effort::importance && settings.importance.geometry && seen_->whereabouts.caustics;
+  const bool rays = settings.effort == photons::Settings::Effort::importance && settings.importance.geometry && seen_->whereabouts.caustics;
   return !rays || !seen_->whereabouts.seen.empty();
 }
 
@@ -224,7 +224,7 @@ void SpectraMaker::make_importance(const preset::Preset& now)
   }
   try {
     spectra_.importance =
-        spectral::wavelength_importance(spectral::settings(now), seen_->whereabouts, outline_.lights, outline_.materials, {});
+        photons::wavelength_importance(spectral::settings(now), seen_->whereabouts, outline_.lights, outline_.materials, {});
   } catch (const Error& error) {
     spectra_.why_no_u = error.text();
   }
@@ -239,7 +239,7 @@ void SpectraMaker::make_clusters(const preset::Preset& now)
   // As the engine has them: without the wavelengths and lights that are left out.
   std::vector<const scene::Light*> lights;
   std::vector<double> watts;
-  const std::vector<double> all_watts = spectral::watts(outline_.lights, seen_->whereabouts.towards);
+  const std::vector<double> all_watts = photons::watts(outline_.lights, seen_->whereabouts.towards);
   for (std::size_t i = 0; i < outline_.lights.size(); ++i)
     if (tracing::has_power(outline_.lights[i]) || !now.leave_out) {
       lights.push_back(&outline_.lights[i]);
@@ -251,7 +251,7 @@ void SpectraMaker::make_clusters(const preset::Preset& now)
   const tracing::WavelengthTables tables = tracing::make_wavelength_tables(outline_, lights, groups_, lit, unused);
   const std::vector<double> importance = importance_of(spectral::settings(now), spectra_.importance.u, tables, outline_, watts);
   for (std::size_t c = 0; c < tables.clusters.size(); ++c) {
-    ClusterWork work{tables.clusters[c], importance[c], spectral::iterations(importance[c], spectra_.passes)};
+    ClusterWork work{tables.clusters[c], importance[c], photons::iterations(importance[c], spectra_.passes)};
     for (const int w : work.wavelengths) spectra_.cluster_of[static_cast<std::size_t>(w)] = static_cast<int>(c);
     spectra_.clusters.push_back(std::move(work));
   }

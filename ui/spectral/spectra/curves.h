@@ -3,9 +3,9 @@
 // made anew where what they hang on changed; and edits of the rows of a light's spectrum (light_edits.cpp). No Dear ImGui.
 #pragma once
 #include "optics/wavelength.h"
+#include "photons/effort/importance.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
-#include "spectral/effort/importance.h"
 #include "ui/widgets/rows.h"
 
 namespace nephroid::ui {
@@ -15,8 +15,8 @@ namespace nephroid::ui {
 struct SeenByGlass {
   std::vector<std::string> materials;      ///< names of Scene::materials, in whose order the shares are
   std::optional<scene::Light> environment; ///< where it is a light
-  spectral::Whereabouts whereabouts;
-  spectral::Settings settings;            ///< of the run,
+  photons::Whereabouts whereabouts;
+  photons::Settings settings;             ///< of the run,
   std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
   bool operator==(const SeenByGlass&) const = default;
 
@@ -47,7 +47,7 @@ struct ClusterWork {
 struct Spectra {
   std::vector<LightCurve> lights;                         ///< one a light of the preset
   std::vector<ReflectanceCurve> reflectances;             ///< of the materials that objects use and that have one
-  spectral::WavelengthImportance importance;              ///< of the preset's effort; all 0 where why_no_u is not empty
+  photons::WavelengthImportance importance;               ///< of the preset's effort; all 0 where why_no_u is not empty
   std::string why_no_u;                                   ///< why there is none, a sentence for a person
   std::vector<ClusterWork> clusters;                      ///< empty where there are none; ordered by their smallest wavelength
   std::array<int, optics::wavelength_count> cluster_of{}; ///< index into clusters; -1: of none
@@ -72,7 +72,7 @@ private:
   void make_lights(const preset::Scene& now);
   void make_materials(const preset::Preset& now);
   void make_groups(const preset::Preset& now);
-  bool is_of_this_scene(const spectral::Settings& settings) const;
+  bool is_of_this_scene(const photons::Settings& settings) const;
   void make_importance(const preset::Preset& now);
   void make_clusters(const preset::Preset& now);
 

@@ -201,7 +201,7 @@ void SpectraPanel::draw_surroundings() const
     ImGui::TableHeader(ImGui::TableGetColumnName(column));
     ImGui::SetItemTooltip("%s", help[static_cast<std::size_t>(column)]);
   }
-  for (const spectral::Surrounding& seen : s.importance.surroundings) {
+  for (const photons::Surrounding& seen : s.importance.surroundings) {
     ImGui::TableNextRow();
     cell(s.materials[static_cast<std::size_t>(seen.material)]);
     cell(fmt::format("{:.1f} %", 100 * seen.share));

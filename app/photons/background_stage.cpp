@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layer "background": kernels/photons/background.cl.
+#include "base/counted.h"
+#include "kernels/tracing/shared_types.h"
+#include "optics/colour.h"
+#include "photons/eye_stage.h"
+#include "scene/scene.h"
+#include "tracing/scales.h"
+#include "tracing/scene_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace nephroid::photons {
+namespace {
+
+using optics::Spectrum;
+using optics::wavelength_count;
+
+optics::Colour one_wavelength(const Spectrum& spectrum, std::size_t w)
+{
+  const optics::ColourMatching& eye = optics::cie_1931();
+  return {spectrum[w] * eye.x[w], spectrum[w] * eye.y[w], spectrum[w] * eye.z[w]};
+}
+
+struct BackgroundTables {
+  shared::DeviceBackground size{};
+  std::vector<shared::float4> primary_xyz; ///< [401, all of them at the end][primary]
+  std::vector<float> spectrum_cdf;         ///< [401]: exact_cdf of what the eye makes of a grey environment
+  double film_scale = 1;                   ///< quanta per unit of the picture's values, a power of two
+  double limit = 1;                        ///< quanta that one contribution may have
+};
+
+/// pixel_samples: that the film is to hold.
+BackgroundTables make_background_tables(const scene::Environment& environment, int pixel_samples)
+{
+  BackgroundTables tables;
+  tables.size = tracing::picture_size(environment);
+  std::vector<double> weights(wavelength_count, 0.0); // of grey
+  for (std::size_t w = 0; w < weights.size(); ++w)
+    for (const Spectrum& primary : optics::primary_spectra()) {
+      const optics::Colour xyz = one_wavelength(primary, w);
+      tables.primary_xyz.push_back(tracing::to_float4({xyz[0], xyz[1], xyz[2]}));
+      weights[w] += tracing::worth((xyz[0] + xyz[1] + xyz[2]) / 3, primary[w]);
+    }
+  for (const Spectrum& primary : optics::primary_spectra()) {
+    const optics::Colour xyz = optics::to_xyz(primary);
+    tables.primary_xyz.push_back(tracing::to_float4({xyz[0], xyz[1], xyz[2]}));
+  }
+  tables.spectrum_cdf = tracing::exact_cdf(weights);
+  // 2^24 quanta for a mean texel; all samples of a pixel together cannot leave 63 bits.
+  const double mean = std::accumulate(environment.rgb.begin(), environment.rgb.end(), 0.0) / static_cast<double>(environment.rgb.size());
+  tables.film_scale = tracing::power_of_two_below(0x1p24 / mean);
+  tables.limit = 0x1p62 / pixel_samples;
+  return tables;
+}
+
+/// Whether no glass that an object is of bends one wavelength otherwise than another.
+bool goes_one_way(const scene::Scene& scene)
+{
+  return std::ranges::none_of(scene.objects, [&](const scene::Object& object) {
+    const scene::Material& material = material_of(scene, object);
+    const auto same = [&](double n) { return n == material.n.front(); };
+    return material.type == scene::Material::Type::dielectric && !std::ranges::all_of(material.n, same);
+  });
+}
+
+class BackgroundStage final : public EyeStage {
+public:
+  BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+      : EyeStage(world, "background", settings), radiance_(scene.environment->radiance),
+        tables_(make_background_tables(*scene.environment, settings.pixel_samples)),
+        texels_(compute::Buffer(world.context, "environment", scene.environment->rgb)),
+        primary_xyz_(compute::Buffer(world.context, "colours of the primaries", tables_.primary_xyz)),
+        wavelengths_(compute::Buffer(world.context, "wavelengths", optics::all_wavelengths())),
+        spectrum_cdf_(compute::Buffer(world.context, "wavelengths of the environment", tables_.spectrum_cdf))
+  {
+    compute::Defines defines = world.defines;
+    defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every path has a wavelength of its own
+    defines.insert_or_assign("NEPHROID_ONE_WAY", std::to_string(goes_one_way(scene) ? 1 : 0));
+    kernel_ = compute::Program(world.context, "photons/background.cl", defines).kernel("background");
+  }
+
+  bool step(std::int64_t pass) override
+  {
+    return sample(pass, kernel_, tables_.limit,
+                  {{"texels", texels_},
+                   {"primary_xyz", primary_xyz_},
+                   {"size", tables_.size},
+                   {"wavelengths", wavelengths_},
+                   {"spectrum_cdf", spectrum_cdf_},
+                   {"film_scale", static_cast<float>(tables_.film_scale)}});
+  }
+
+  void develop(std::int64_t, bool, job::Picture& picture) override { add_to(picture, tables_.film_scale * world_.white / radiance_); }
+
+private:
+  double radiance_; ///< of the texel (1, 1, 1)
+  BackgroundTables tables_;
+  compute::Buffer<float> texels_;
+  compute::Buffer<shared::float4> primary_xyz_;
+  compute::Buffer<int> wavelengths_;
+  compute::Buffer<float> spectrum_cdf_;
+  compute::Kernel kernel_;
+};
+
+plan::Pass background_pass(const PlanInput& input)
+{
+  const char* const name = "background";
+  const auto& environment = input.scene.environment;
+  if (!input.settings.background) return not_asked_for(name, name);
+  if (!environment) return {name, false, "there is no environment: what meets nothing is black"};
+  if (environment->is_black()) return {name, false, "the environment is black"};
+  return {name, true,
+          fmt::format("{}, seen directly, through glass and in mirrors; {} a pixel{}", size_of(*environment),
+                      counted(input.settings.pixel_samples, "sample"), more_through_glass(input)),
+          "/spectral/background", true};
+}
+
+PlanPart plan_background(const PlanInput& input)
+{
+  const std::uint64_t texels = input.scene.environment ? input.scene.environment->rgb.size() : 0;
+  return part_of(background_pass(input), {{"environment", texels * sizeof(float)}, {"film background", input.film_bytes()}});
+}
+
+} // namespace
+
+const RunPart background_stage{plan_background, make_stage<BackgroundStage>, "background"};
+
+} // namespace nephroid::photons

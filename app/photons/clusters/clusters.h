@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wavelength clusters: which of the 401 wavelengths may share one path (thesis 4.1.1), of one glass and of a scene. No OpenCL here.
+#pragma once
+#include "photons/settings.h"
+#include "scene/scene.h"
+
+#include <span>
+#include <vector>
+
+namespace nephroid::photons {
+
+/// thesis: bicubic patches and Algorithm 4.1 as printed; optimal: exact changes of angle.
+using ClusterMethod = Settings::Method;
+
+struct Cluster {
+  std::vector<int> wavelengths; ///< indices 0..400 in the order of falling n
+  double n_mean = 1;            ///< of the curve that was clustered
+  double theta_deg2 = 0;        ///< change of the refraction angle inside the cluster, integrated over 0..89 degrees (4.4)
+};
+
+struct Clustering {
+  ClusterMethod method = ClusterMethod::optimal;
+  double threshold_deg = 0;
+  double total_theta_deg2 = 0;   ///< the sum over the clusters: the change from the highest to the lowest n
+  std::vector<Cluster> clusters; ///< by falling n
+};
+
+/// The wavelengths are sorted by falling n (equal n: by wavelength). Each has Theta, the change of angle on the way to the next
+/// one; so 401 wavelengths have 400 changes, and the last has none. What may be merged is decided as if the last one had the
+/// change of the one before it (a one-sided difference, as everywhere at the ends); what is reported counts the 400.
+/// A cluster of several wavelengths has at most threshold_deg * 89 square degrees. Below n = 1 there is no refracted ray beyond
+/// the critical angle: theta2 counts as 90 degrees there, and Theta is the exact one with every method, for the patches'
+/// derivative is infinite at that angle.
+/// threshold_deg: alpha in (0, 90). n: on the 401 wavelengths, finite and > 0. Throws bad_input otherwise.
+Clustering cluster_wavelengths(const optics::Spectrum& n, double threshold_deg, ClusterMethod method);
+
+/// The coarsest partition that is finer than each of the given ones: wavelengths stay together where they are together in all
+/// of them. One group of wavelength indices a cluster, ordered by its smallest wavelength; an empty input gives one group of all.
+std::vector<std::vector<int>> common_refinement(std::span<const Clustering> clusterings);
+
+/// Theta, the change of the refraction angle from one wavelength to the next, integrated over the angle of incidence (thesis 4.4), once
+/// exactly, once by the thesis' bicubic patches. The angles of incidence end at 89 degrees, where every index of refraction from 1 on still
+/// has a finite derivative.
+inline constexpr int last_angle_deg = 89;
+
+/// G(n), the integral over theta1 = 0..89 degrees of theta2 = asin(sin theta1 / n), in square degrees; n > 0.
+double refraction_integral_deg2(double n);
+
+/// n: falling, at least two. One value >= 0 in square degrees for each of the n.size() - 1 steps.
+std::vector<double> theta_exact(std::span<const double> n);
+/// The same by bicubic patches of 1 nm by 1 degree; exact where a patch would need a derivative at n < 1.
+std::vector<double> theta_patches(std::span<const double> n);
+
+/// Layers keep one number for what is left of a whole cluster (kernels/photons/layers.h): this is the most by which that may be wrong for
+/// a light that has only one wavelength of it. Light that changes little inside of a cluster is far less off.
+constexpr double largest_loss_difference = 0.1;
+
+/// The clusters (indices of wavelengths) for all dielectrics that an object uses: of one curve its own, of several their common
+/// refinement, of none one group; by brute_force groups of Spectral::step_nm neighbours whatever the glass. Every wavelength is in exactly
+/// one. Where splats are stretched along the wavelength, a cluster is a run of neighbours. Where layers are kept for another light, glass
+/// and mirrors take about as much of each wavelength of a cluster (split_by_losses). Throws bad_input as cluster_wavelengths does.
+std::vector<std::vector<int>> scene_clusters(const Settings& settings, const scene::Scene& scene);
+
+/// The most by which exp(-a s) and exp(-b s) differ for s in 0..longest; a, b >= 0.
+double largest_difference(double a, double b, double longest);
+
+/// Splits clusters so that, in each, what one material leaves of two wavelengths differs by at most `most`, whatever the length: of glass
+/// up to twice the diagonal of the box about all objects of it, on a mirror up to `reflections` times. In each cluster the fewest parts for
+/// each material, then their common refinement, in no particular order. Returns the clusters as they are where nothing takes light away.
+std::vector<std::vector<int>> split_by_losses(std::vector<std::vector<int>> clusters, const scene::Scene& scene, int reflections,
+                                              double most);
+
+} // namespace nephroid::photons

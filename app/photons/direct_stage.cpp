@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The direct layer: kernels/photons/direct.cl.
+#include "base/counted.h"
+#include "photons/eye_stage.h"
+
+#include <fmt/format.h>
+
+namespace nephroid::photons {
+namespace {
+
+class DirectStage final : public EyeStage {
+public:
+  DirectStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
+      : EyeStage(world, "direct", settings), kernel_(compute::Program(world.context, "photons/direct.cl", world.defines).kernel("direct"))
+  {
+  }
+
+  bool step(std::int64_t pass) override
+  {
+    const RunTables& t = world_.tables;
+    return sample(pass, kernel_, t.direct_limit,
+                  {{"reflected_xyz_all", world_.buffers.reflected_xyz_all},
+                   {"cluster_cdf", world_.buffers.cluster_cdf},
+                   {"film_scale", world_.on_device(t.direct_scale)}});
+  }
+
+  void develop(std::int64_t, bool, job::Picture& picture) override { add_to(picture, world_.tables.direct_scale * world_.white); }
+
+private:
+  compute::Kernel kernel_;
+};
+
+plan::Pass direct_pass(const PlanInput& input)
+{
+  const char* const name = "direct";
+  if (!input.settings.direct) return not_asked_for(name, name);
+  const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
+  if (!missing.empty()) return tracing::not_needed(name, input.leave_out.direct, missing);
+  return tracing::needed(name, fmt::format("{} lit by {}, {} a pixel{}", counted(input.objects.diffuse, "diffuse object"),
+                                           counted(shining_lights(input), "light"), counted(input.settings.pixel_samples, "sample"),
+                                           input.settings.relight ? "" : more_through_glass(input)));
+}
+
+PlanPart plan_direct(const PlanInput& input) { return part_of(direct_pass(input), {{"film direct", input.film_bytes()}}); }
+
+} // namespace
+
+const RunPart direct_stage{plan_direct, make_stage<DirectStage>, "direct"};
+
+} // namespace nephroid::photons

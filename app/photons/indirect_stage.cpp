@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layer "indirect": kernels/photons/indirect.cl.
+#include "base/counted.h"
+#include "optics/colour.h"
+#include "photons/effort/emitters.h"
+#include "photons/stage.h"
+#include "photons/tables/run_tables.h"
+#include "tracing/film.h"
+#include "tracing/scales.h"
+#include "tracing/step_size.h"
+#include "tracing/targets.h"
+
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace nephroid::photons {
+namespace {
+
+/// Of each wavelength of the light at `index` of the tables.
+std::vector<double> wavelength_worth(const tracing::WavelengthTables& tables, const scene::Light& light, std::size_t index)
+{
+  const optics::ColourMatching& eye = optics::cie_1931();
+  std::vector<double> weights;
+  for (const int wavelength : tables.cluster_wavelengths) {
+    const auto w = static_cast<std::size_t>(wavelength);
+    const shared::float4& xyz = tables.light_xyz[index * WAVELENGTH_COUNT + w];
+    if (is_environment(light)) // whose rows are of its primaries
+      weights.push_back(tracing::worth(light.spectrum[w] * (eye.x[w] + eye.y[w] + eye.z[w]) / 3, light.spectrum[w]));
+    else
+      weights.push_back(tracing::worth((double(xyz.x) + xyz.y + xyz.z) / 3, xyz.w));
+  }
+  return weights;
+}
+
+struct IndirectTables {
+  shared::DeviceTarget everything{};           ///< photons are sent into it from wherever a light is
+  float outside_distance = 0;                  ///< directional photons start this far before it
+  std::vector<shared::DeviceEmitter> emitters; ///< photons of one pass: one emitter for each light; cluster and share are not used
+  std::vector<float> spectrum_cdf;             ///< [light][member of cluster_wavelengths]: whole numbers of 2^-24, the last 1
+  unsigned photons_per_pass = 0;               ///< as dealt out: at least one for each light
+  double emitted_w = 0;                        ///< in a pass, by all lights, all wavelengths
+  double film_scale = 1, energy_scale = 1;     ///< quanta per unit of XYZ radiance and per watt, powers of two
+};
+
+/// tables: of the same scene. photons: wanted in a pass.
+IndirectTables make_indirect_tables(const scene::Scene& scene, const RunTables& tables, unsigned photons)
+{
+  IndirectTables result;
+  const scene::Sphere target = tracing::everything(scene);
+  result.everything.centre_radius = {target.centre.x, target.centre.y, target.centre.z, target.radius};
+  result.outside_distance = 2.5f * target.radius;
+  std::vector<PhotonSource> sources;
+  for (std::size_t l = 0; l < tables.lights.size(); ++l) {
+    const scene::Light& light = scene.lights[static_cast<std::size_t>(tables.lights[l].number)];
+    const double watts = tracing::towards_targets_w(light, {target}, scene.metres_per_unit);
+    const std::vector<double> weights = wavelength_worth(tables.wavelengths, light, l);
+    sources.push_back({watts * std::accumulate(weights.begin(), weights.end(), 0.0), static_cast<int>(l), 0, 0});
+    result.emitted_w += watts;
+    const std::vector<float> cdf = tracing::exact_cdf(weights);
+    result.spectrum_cdf.insert(result.spectrum_cdf.end(), cdf.begin(), cdf.end());
+  }
+  result.emitters = make_emitters(sources, photons);
+  result.photons_per_pass = count_photons(result.emitters);
+  result.film_scale = tracing::splat_scale(scene, result.photons_per_pass, result.emitted_w);
+  result.energy_scale = tracing::energy_scale(result.emitted_w);
+  return result;
+}
+
+class IndirectStage final : public Stage {
+public:
+  IndirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+      : world_(world), tables_(make_indirect_tables(scene, world.tables, static_cast<unsigned>(settings.indirect_photons_per_pass))),
+        everything_(world.context, "target of indirect light", std::span<const shared::DeviceTarget>(&tables_.everything, 1)),
+        emitters_(world.context, "emitters of indirect light", tables_.emitters),
+        spectrum_cdf_(world.context, "wavelengths of indirect light", tables_.spectrum_cdf),
+        film_(world.zeroed("film indirect", world.film_size())), energy_(world.zeroed("energy of indirect light", OUTCOME_COUNT))
+  {
+    compute::Defines defines = world.photon_defines();
+    defines.insert_or_assign("NEPHROID_JITTER", std::to_string(1)); // every photon has a wavelength of its own
+    kernel_ = compute::Program(world.context, "photons/indirect.cl", defines).kernel("indirect");
+  }
+
+  const char* name() const override { return "indirect"; }
+  double part() const override { return slices_.part(); }
+  std::uint64_t photons_per_pass() const override { return tables_.photons_per_pass; }
+
+  bool step(std::int64_t pass) override
+  {
+    return slices_.step(tables_.photons_per_pass, [&](const tracing::Slice& slice) {
+      world_.send(kernel_, slice, pass,
+                  {{"everything", everything_},
+                   {"emitters", emitters_},
+                   {"emitter_count", static_cast<int>(tables_.emitters.size())},
+                   {"spectrum_cdf", spectrum_cdf_},
+                   {"film", film_},
+                   {"energy", energy_},
+                   {"seed", world_.seed},
+                   {"outside_distance", tables_.outside_distance},
+                   {"film_scale", world_.on_device(tables_.film_scale)},
+                   {"energy_scale", world_.on_device(tables_.energy_scale)}});
+    });
+  }
+
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override
+  {
+    const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
+    tracing::add_layer("indirect", {film_.read(), tables_.film_scale * world_.white, samples}, picture);
+  }
+
+  void report(std::int64_t passes, bool done, Energy& energy) override
+  {
+    const double passes_done = static_cast<double>(passes) + (done ? 1 : part());
+    energy.indirect = balance_of(outcome_watts(energy_.read(), tables_.energy_scale, passes_done));
+    energy.caustics.refused_contributions += energy.indirect->refused_contributions;
+  }
+
+  void state(tracing::State& state) override
+  {
+    slices_.state(state);
+    state.buffer(film_);
+    state.buffer(energy_);
+  }
+
+private:
+  DeviceWorld& world_;
+  IndirectTables tables_;
+  compute::Buffer<shared::DeviceTarget> everything_;
+  compute::Buffer<shared::DeviceEmitter> emitters_;
+  compute::Buffer<float> spectrum_cdf_;
+  compute::Buffer<std::int64_t> film_, energy_;
+  compute::Kernel kernel_;
+  tracing::PhotonSlices slices_;
+};
+
+plan::Pass indirect_pass(const PlanInput& input)
+{
+  const char* const name = "indirect";
+  if (input.settings.relight) return not_in_layers(name, "its light met several reflectors");
+  if (!input.settings.indirect) return not_asked_for(name, name);
+  const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
+  if (!missing.empty()) return {name, false, missing};
+  std::string reason = counted(input.settings.indirect_photons_per_pass, "photon a pass", "photons a pass");
+  if (input.objects.dielectrics + input.objects.mirrors > 0)
+    reason += ", shown where the camera sees a surface directly; through glass and in mirrors it is left out";
+  return {name, true, reason, "/spectral/indirect", true};
+}
+
+PlanPart plan_indirect(const PlanInput& input) { return part_of(indirect_pass(input), {{"film indirect", input.film_bytes()}}); }
+
+} // namespace
+
+const RunPart indirect_stage{plan_indirect, make_stage<IndirectStage>, "indirect"};
+
+} // namespace nephroid::photons

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photons from the lights and paths from the eye, pass after pass: what engine 1 is, and what engine 2 comes to.
+#pragma once
+#include "compute/compute.h"
+#include "job/job.h"
+#include "photons/settings.h"
+#include "photons/tables/run_tables.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+#include "tracing/state.h"
+
+#include <memory>
+#include <vector>
+
+namespace nephroid::photons {
+
+struct RunPart; ///< plan_part.h
+
+/// What a run does, decided once, with the tables that this took.
+struct RunPlan : plan::Plan {
+  Settings settings;
+  RunTables tables;
+  std::vector<const RunPart*> parts; ///< that run; stages in the order of their turns in a pass
+  bool runs(const RunPart& part) const;
+};
+
+/// Throws bad_input as make_run_tables does.
+RunPlan make_plan(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
+                  const tracing::LeaveOut& leave_out);
+
+/// A job with what an engine needs that knows more than photons do.
+class Run : public job::Job {
+public:
+  /// What the layer "caustic" is as somebody else knows it, without noise but not quite right: [pixel][3], over the preset's white. From
+  /// now on it is mixed with what photons say (mixture.h). Empty: there is none.
+  virtual void set_estimate(std::vector<float> caustics) = 0;
+  /// Of pictures from now on. While estimates are of another one there must be none.
+  virtual void set_white(double white) = 0;
+  /// All that save() and load() are about.
+  virtual void state(tracing::State& state) = 0;
+};
+
+/// The scene and tree are copied to the device; they need not outlive the call. plan: of the same preset and scene.
+/// Throws failed where the device has not enough memory, BuildError for a kernel that does not compile.
+std::unique_ptr<Run> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
+                              const compute::Context& context);
+
+} // namespace nephroid::photons

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paths from the eye in steps of some pixels: kernels/photons/view.cl finds where they end, the caller gathers photons there.
+#pragma once
+#include "kernels/photons/photon_map_types.h"
+#include "photons/sampled_pixels.h"
+#include "photons/tables/device_world.h"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace nephroid::photons {
+
+class EyePaths {
+public:
+  /// enough: of SampledPixels.
+  EyePaths(DeviceWorld& world, std::int64_t enough)
+      : world_(world), points_(world.context, "visible points", point_count(world.tables.camera)),
+        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")), pixels_(world, enough)
+  {
+  }
+  /// What it takes on the device.
+  static std::uint64_t bytes(const shared::DeviceCamera& camera) { return point_count(camera) * sizeof(shared::VisiblePoint); }
+
+  /// The paths that a pixel has in a pass, and how many it had before, in all and in this half of the film.
+  struct Paths {
+    std::uint32_t count = 1, before = 0, before_in_half = 0;
+  };
+  /// The paths of each of the next pixels, one after the other: gather(points, first, count) queues kernels for each; first: in
+  /// DeviceWorld::pixels. cluster: see view.cl. True when all pixels are done.
+  template <class Gather>
+  bool step(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather)
+  {
+    const auto work = [&](std::uint32_t first, std::uint32_t count) {
+      for (std::uint32_t path = 0; path < paths.count; ++path) {
+        look({seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster, first, count});
+        gather(points_, first, count);
+      }
+      world_.context.finish();
+    };
+    return pixels_.step(pass, work, static_cast<std::int64_t>(points_.size()));
+  }
+
+  /// Stage::warm_up for its kernel.
+  void warm_up() { look({world_.seed, 0, {}, 0, 0, 0}); }
+  const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
+
+  const SampledPixels& pixels() const { return pixels_; }
+
+  void state(tracing::State& state) { pixels_.state(state); }
+
+private:
+  /// Which paths a launch of view.cl has.
+  struct Look {
+    shared::uint2 seed{};
+    std::uint32_t pass = 0;
+    Paths paths;
+    int cluster = 0;
+    std::uint32_t first = 0, count = 0;
+  };
+  void look(const Look& at)
+  {
+    world_.run(view_, std::max(at.count, 1u), 64,
+               {{"cluster_cdf", world_.buffers.cluster_cdf},
+                {"points", points_},
+                {"camera", world_.tables.camera},
+                {"seed", at.seed},
+                {"pass", at.pass},
+                {"sample", at.paths.before},
+                {"place", at.paths.before_in_half},
+                {"path_count", at.paths.count},
+                {"cluster", at.cluster},
+                {"object_count", static_cast<int>(world_.tables.objects.size())},
+                {"pixels", world_.pixels.on_device},
+                {"first", at.first},
+                {"count", at.count}});
+  }
+
+  /// About as many as make work for a step.
+  static std::size_t point_count(const shared::DeviceCamera& camera)
+  {
+    return std::min<std::size_t>(1 << 16, static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height));
+  }
+
+  DeviceWorld& world_;
+  compute::Buffer<shared::VisiblePoint> points_;
+  compute::Kernel view_;
+  SampledPixels pixels_;
+};
+
+} // namespace nephroid::photons

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Caustics seen through glass or in a mirror: paths from the eye gather the photons that the photon stage has splatted elsewhere and
+// stored. The radius shrinks from pass to pass and is the same for all pixels (Knaus and Zwicker 2011), so each pass is an estimate of
+// its own, and the film adds them up like any other's.
+#include "base/counted.h"
+#include "photons/maps/eye_paths.h"
+#include "photons/maps/photon_map.h"
+#include "photons/stage.h"
+#include "tracing/film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace nephroid::photons {
+namespace {
+
+class MapStage final : public Stage {
+public:
+  MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+      : world_(world), map_(world.map.value()), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
+        paths_(world.tables.eye_paths), eye_(world, 0), film_(world.zeroed("film photon maps", world.film_size())),
+        gather_(compute::Program(world.context, "photons/gather.cl", world.defines).kernel("gather_to_film"))
+  {
+  }
+
+  const char* name() const override { return "photon maps"; }
+  double part() const override { return eye_.pixels().part(); }
+  double glass_work() const override { return paths_ * work_of_a_path * static_cast<double>(eye_.pixels().glass()); }
+  void share_work(double factor) override { paths_ = static_cast<std::uint32_t>(std::clamp(std::round(paths_ * factor), 1.0, 64.0)); }
+
+  bool step(std::int64_t pass) override
+  {
+    const double radius = first_radius_ * map_radius_factor(pass, alpha_);
+    if (sorted_pass_ != pass) map_.build(radius, world_.tables.photons_per_pass);
+    sorted_pass_ = pass;
+    const RunTables& t = world_.tables;
+    const double quanta = photon_scale(t.photons_per_pass, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
+    const auto film_per_quantum = static_cast<float>(t.caustic_scale / quanta / std::pow(std::numbers::pi * metres, 2));
+    const auto number = static_cast<std::uint32_t>(pass);
+    const EyePaths::Paths paths{paths_, before_[0] + before_[1], before_[number % 2]};
+    const bool complete = eye_.step(world_.seed, number, paths, -1, [&](const auto& points, std::uint32_t first, std::uint32_t count) {
+      gather_.run(count, 64, map_.arguments(),
+                  {{"points", points},
+                   {"film", film_},
+                   {"energy", world_.energy},
+                   {"pixels", world_.pixels.on_device},
+                   {"picture", world_.pixels.count},
+                   {"pass", number},
+                   {"first", first},
+                   {"count", count},
+                   {"radius", static_cast<float>(radius)},
+                   {"film_per_quantum", film_per_quantum}});
+    });
+    if (complete) before_[number % 2] += paths_;
+    return complete;
+  }
+
+  void develop(std::int64_t, bool, job::Picture& picture) override
+  {
+    const auto samples = [&](std::size_t pixel) { return eye_.pixels().samples(pixel); };
+    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
+  }
+
+  void state(tracing::State& state) override
+  {
+    eye_.state(state);
+    state.value(paths_);
+    state.value(before_);
+    state.buffer(film_);
+    state.buffer(map_.stored());
+    if (state.is_read()) sorted_pass_ = -1;
+  }
+
+private:
+  DeviceWorld& world_;
+  PhotonMap& map_;
+  double first_radius_, alpha_;
+  std::uint32_t paths_;                   ///< of a pixel in a pass
+  std::array<std::uint32_t, 2> before_{}; ///< of a pixel, in even and in odd passes
+  EyePaths eye_;
+  compute::Buffer<std::int64_t> film_;
+  compute::Kernel gather_;
+  std::int64_t sorted_pass_ = -1; ///< whose photons the grid has
+};
+
+plan::Pass map_pass(const PlanInput& input)
+{
+  const char* const name = "photon maps";
+  if (input.settings.relight)
+    return {name, false, "spectral.relight is true: layers are kept of splats, not of photon maps", "/spectral/relight", false};
+  if (!input.caustics.runs) return {name, false, "there are no caustics to gather"};
+  const bool sees = tracing::may_see_glass_or_mirror(input.scene);
+  if (input.settings.estimator == Settings::Estimator::splat)
+    return {name, false,
+            fmt::format("spectral.estimator is splat: {}",
+                        sees ? "what glass and mirrors show of caustics is left out" : "the camera sees no glass and no mirror")};
+  if (!sees)
+    return tracing::not_needed(name, input.leave_out.photon_maps, "the camera sees no glass and no mirror, so every caustic is splatted");
+  return tracing::needed(
+      name, fmt::format("caustics seen through glass or in a mirror are gathered, {}, {} a pixel and pass; the others are splatted",
+                        map_radius(input.settings, input.scene), counted(input.tables.eye_paths, "path")));
+}
+
+PlanPart plan_maps(const PlanInput& input)
+{
+  PlanPart part = plan_gathering(input, map_pass(input), input.tables.photons_per_pass);
+  const bool runs = part.passes[0].runs;
+  if (runs) part.buffers.push_back({"film photon maps", input.film_bytes()});
+  // Wavelengths of a cluster in one pass, as photons and eye paths of one wavelength need each other: so many that a pass has 32 in all,
+  // for a picture of a few wavelengths has a cast.
+  const int clusters = std::max(static_cast<int>(input.tables.wavelengths.clusters.size()), 1);
+  part.defines = {{"NEPHROID_PASS_BANDS", std::to_string(runs && jitter_pass(input).runs ? std::max(1, 32 / clusters) : 1)}};
+  return part;
+}
+
+} // namespace
+
+const RunPart map_stage{plan_maps, make_stage<MapStage>, "caustic"};
+
+} // namespace nephroid::photons

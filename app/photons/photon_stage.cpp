@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photons that are splatted into the pixel that sees them: kernels/photons/photons.cl.
+#include "photons/effort/emitters.h"
+#include "photons/stage.h"
+#include "tracing/film.h"
+#include "tracing/step_size.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace nephroid::photons {
+namespace {
+
+/// By how much photons that are dealt by variance have to lower it: so much longer they may take, for they meet more glass and are
+/// measured.
+constexpr double least_gain = 1.5;
+
+class PhotonStage final : public Stage {
+public:
+  PhotonStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
+      : world_(world), insists_(settings.effort == Settings::Effort::variance),
+        by_variance_(insists_ || settings.effort == Settings::Effort::automatic), deal_(world.tables.emitters),
+        guide_(by_variance_ ? world.tables.lights.size() : 0),
+        moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
+        guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
+        guide_table_(world.context, "guide of directions", guide_.table()), film_(world.zeroed("film caustic", world.film_size())),
+        stored_(world.context, "no photons", 0)
+  {
+    if (world.map) stored_ = world.map->stored();
+    make_kernel();
+  }
+
+  const char* name() const override { return "photons"; }
+  double part() const override { return slices_.part(); }
+  std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass; }
+  bool counts_energy() const override { return true; }
+
+  bool step(std::int64_t pass) override
+  {
+    if (by_variance_ && slices_.at_start() && deal_.is_due(pass)) deal(pass);
+    const RunTables& t = world_.tables;
+    return slices_.step(t.photons_per_pass, [&](const tracing::Slice& slice) {
+      world_.send(kernel_, slice, pass,
+                  {{"targets", world_.buffers.targets},
+                   {"emitters", world_.emitters},
+                   {"film", film_},
+                   {"energy", world_.energy},
+                   {"moments", moments_},
+                   {"guide_moments", guide_moments_},
+                   {"guide", guide_table_},
+                   {"unseen_weight", unseen_weight()},
+                   {"stored", stored_},
+                   {"emitter_count", t.scene.emitter_count},
+                   {"object_count", static_cast<int>(t.objects.size())},
+                   {"seed", world_.seed},
+                   {"first_pass", static_cast<std::uint32_t>(deal_.first_pass())},
+                   {"film_scale", world_.on_device(t.caustic_scale)},
+                   {"energy_scale", world_.on_device(t.energy_scale)},
+                   {"stored_scale", world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w))}});
+    });
+  }
+
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override
+  {
+    const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
+    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
+  }
+
+  void state(tracing::State& state) override
+  {
+    const bool was_by_variance = by_variance_;
+    slices_.state(state);
+    state.value(by_variance_);
+    state.buffer(film_);
+    deal_.state(state);
+    guide_.state(state);
+    state.buffer(moments_);
+    state.buffer(guide_moments_);
+    if (state.is_read()) write_deal();
+    if (by_variance_ != was_by_variance) make_kernel();
+  }
+
+private:
+  void make_kernel()
+  {
+    compute::Defines defines = world_.photon_defines();
+    defines["NEPHROID_MOMENTS"] = std::to_string(int(by_variance_));
+    defines["NEPHROID_STORE"] = std::to_string(int(stored_.size() > 0));
+    kernel_ = compute::Program(world_.context, "photons/photons.cl", defines).kernel("photons");
+  }
+
+  /// Deals the photons of the passes from this one on by what the earlier ones have shown.
+  void deal(std::int64_t pass)
+  {
+    std::vector<double> photons(world_.tables.lights.size(), 0); // of a pass, of each light
+    for (const shared::DeviceEmitter& e : deal_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
+    guide_.learn(guide_moments_.read(), photons, static_cast<double>(pass - deal_.first_pass()));
+    deal_.deal(pass, moments_.read(), world_.halves);
+    if (!insists_ && pass > 2 && deal_.gain() < least_gain) { // pass 2 is the first that is dealt by what was measured
+      by_variance_ = false;
+      make_kernel();
+      deal_.deal_as_first(pass, world_.halves);
+    }
+    moments_.fill_zero();
+    guide_moments_.fill_zero();
+    write_deal();
+  }
+
+  void write_deal()
+  {
+    world_.emitters.write(deal_.emitters());
+    guide_table_.write(guide_.table());
+  }
+
+  /// What a photon that only a map will show is worth: a quarter of a splat on a surface as far away as the scene's middle, of which
+  /// RunTables::caustic_scale makes 2^16 quanta.
+  float unseen_weight() const
+  {
+    const RunTables& t = world_.tables;
+    return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_pass * std::numbers::pi / (t.caustic_scale * t.light_towards_targets_w));
+  }
+
+  DeviceWorld& world_;
+  bool insists_;     ///< on dealing by variance
+  bool by_variance_; ///< whether photons are dealt and guided so, and it is measured how
+  VarianceDeal deal_;
+  EmissionGuide guide_;
+  compute::Buffer<std::int64_t> moments_;       ///< [emitter], see VarianceDeal::deal
+  compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
+  compute::Buffer<float> guide_table_;
+  compute::Buffer<std::int64_t> film_;
+  compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
+  compute::Kernel kernel_;
+  tracing::PhotonSlices slices_;
+};
+
+PlanPart plan_photons(const PlanInput& input)
+{
+  if (!input.caustics.runs) return {.passes = {input.caustics}};
+  if (input.is_sppm()) return {.passes = {{"photons", false, "spectral.estimator is sppm: nothing is splatted"}}};
+  PlanPart part{.passes = {input.caustics}, .buffers = {{"film caustic", input.film_bytes()}}};
+  using Effort = Settings::Effort;
+  if (const Effort effort = input.settings.effort; effort == Effort::variance || effort == Effort::automatic)
+    part.buffers.push_back({"guide of directions", input.tables.lights.size() * (EmissionGuide::floats * sizeof(float) +
+                                                                                 EmissionGuide::cells * sizeof(std::int64_t))});
+  if (const int wanted = input.settings.photons_per_pass; input.tables.photons_per_pass > static_cast<unsigned>(wanted))
+    part.notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light", wanted,
+                                     input.tables.photons_per_pass));
+  return part;
+}
+
+} // namespace
+
+const RunPart photon_stage{plan_photons, make_stage<PhotonStage>, "caustic"};
+
+} // namespace nephroid::photons

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What photons and paths from the eye are to do: of engine 1 it is the section "spectral" of a preset. describe_settings.h says what each
+// choice is.
+#pragma once
+#include <optional>
+
+namespace nephroid::photons {
+
+/// How much a wavelength matters (4.15), where Settings::effort asks for it.
+struct Importance {
+  enum class Cluster { maximum, mean };
+  Cluster cluster = Cluster::maximum; ///< which of its wavelengths speaks for a cluster (the thesis takes the maximum)
+  bool geometry = true;               ///< weigh materials by how much of them the caustic objects see
+  bool operator==(const Importance&) const = default;
+};
+
+/// Progressive photon mapping (Hachisuka and Jensen 2009).
+struct Sppm {
+  std::optional<double> radius; ///< of the first pass, in length units; without: what the camera's pixels suggest
+  double alpha = 2.0 / 3;       ///< part of each pass's photons that is kept; the radius shrinks the faster the smaller it is
+  bool operator==(const Sppm&) const = default;
+};
+
+struct Settings {
+  enum class Method { optimal, thesis, brute_force };
+  enum class Estimator { automatic, splat, sppm };
+  enum class Effort { automatic, power, equal, importance, radziszewski, variance, random };
+  enum class Smoothing { automatic, on, off };
+  Method method = Method::optimal;
+  double threshold_deg = 0.05; ///< alpha: the largest change of the refraction angle inside a cluster
+  int step_nm = 1;             ///< brute_force: neighbouring wavelengths that share a path all the same
+  Estimator estimator = Estimator::automatic;
+  Effort effort = Effort::automatic;
+  Importance importance;
+  bool jitter = true; ///< each path takes one wavelength of its cluster (with maps: one that its pass shares), so clusters leave no bias
+  bool low_discrepancy = true; ///< photons leave the lights by a scrambled Sobol sequence
+  bool differentials = false;  ///< a splat is stretched along the way that it moves with wavelength
+  Smoothing smoothing = Smoothing::automatic;
+  bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
+  int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
+  int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
+  int pixel_samples = 64;                  ///< samples a pixel of the direct layer, one a pass until there are so many
+  int max_surfaces = 32;                   ///< interfaces a path may meet before it is counted as lost
+  Sppm sppm;
+  bool direct = true;     ///< layer: light that reaches a diffuse surface unbent
+  bool caustic = true;    ///< layer: light that met glass or a mirror, then one diffuse surface
+  bool indirect = false;  ///< layer: light that met a diffuse surface before the last one
+  bool background = true; ///< layer: the environment
+  bool operator==(const Settings&) const = default;
+};
+
+} // namespace nephroid::photons

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photons/sight.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace nephroid::photons {
+namespace {
+
+constexpr int most_surfaces = 32;
+constexpr std::size_t middle = optics::wavelength_count / 2;
+
+using Type = scene::Material::Type;
+
+/// A place on a surface.
+struct Place {
+  int object;
+  glm::dvec3 position, geometric, shading; ///< normals: unit, outwards; alike unless the object is smooth
+};
+
+class Look {
+public:
+  Look(const scene::Scene& scene, const scene::Bvh& bvh, const glm::dvec3& way)
+      : scene_(scene), bvh_(bvh), from_(scene.camera.position), way_(way), inside_(scene.camera.inside)
+  {
+  }
+
+  /// Goes on to the next surface; empty where there is none.
+  std::optional<Place> next()
+  {
+    const auto hit = scene::closest_hit(bvh_, from_, way_, {}, std::numeric_limits<double>::infinity(), left_);
+    if (!hit) return std::nullopt;
+    length_ += hit->t;
+    from_ += hit->t * way_;
+    left_ = hit->primitive;
+    return place_on(hit->primitive);
+  }
+
+  /// Is sent back by a mirror.
+  void reflect(const Place& place) { bend(place, std::nullopt); }
+
+  /// Passes the surface of glass, or is totally reflected there (cross_interface in kernels/tracing/interface.h). False where there is
+  /// nothing to see: both sides have one index of refraction.
+  bool cross(const Place& place)
+  {
+    std::vector<int> beyond = inside_;
+    int near = medium_of(inside_);
+    const auto entry = std::find(beyond.rbegin(), beyond.rend(), place.object);
+    if (glm::dot(way_, place.geometric) < 0)
+      beyond.push_back(place.object);
+    else if (entry != beyond.rend())
+      beyond.erase(std::next(entry).base());
+    else
+      near = place.object; // an open mesh: the look got in without meeting its surface
+    const double ratio = index_of(near) / index_of(medium_of(beyond));
+    if (ratio == 1 || bend(place, ratio)) inside_ = std::move(beyond);
+    return ratio != 1;
+  }
+
+  const glm::dvec3& way() const { return way_; }
+  double length() const { return length_; }
+
+private:
+  Place place_on(std::uint32_t primitive) const
+  {
+    const std::size_t triangles = scene_.geometry.triangles.size();
+    const auto object = static_cast<int>(scene_.object_of_primitive[primitive]);
+    if (primitive >= triangles) {
+      const glm::dvec3 normal = normal_at(scene_.geometry.ellipsoids[primitive - triangles], from_);
+      return {object, from_, normal, normal};
+    }
+    const glm::uvec3 corner = scene_.geometry.triangles[primitive];
+    const std::vector<glm::vec3>&at = scene_.geometry.positions, &normals = scene_.geometry.normals;
+    const glm::dvec3 a(at[corner.x]), b(at[corner.y]), c(at[corner.z]), across = glm::cross(b - a, c - a);
+    Place place{object, from_, glm::normalize(across), {}};
+    place.shading = place.geometric;
+    if (!scene_.objects[static_cast<std::size_t>(place.object)].smooth) return place;
+    const double u = glm::dot(glm::cross(a - c, from_ - c), across) / glm::dot(across, across),
+                 v = glm::dot(glm::cross(b - a, from_ - a), across) / glm::dot(across, across);
+    const glm::dvec3 mixed =
+        (1 - u - v) * glm::dvec3(normals[corner.x]) + u * glm::dvec3(normals[corner.y]) + v * glm::dvec3(normals[corner.z]);
+    if (glm::dot(mixed, place.geometric) > 0) place.shading = glm::normalize(mixed);
+    return place;
+  }
+
+  /// The object whose material fills the place: the highest priority, of equals the one entered last; -1: air.
+  int medium_of(const std::vector<int>& inside) const
+  {
+    int best = -1;
+    for (const int object : inside)
+      if (best < 0 || scene_.objects[static_cast<std::size_t>(object)].priority >= scene_.objects[static_cast<std::size_t>(best)].priority)
+        best = object;
+    return best;
+  }
+
+  double index_of(int object) const
+  {
+    if (object < 0) return 1;
+    return material_of(scene_, scene_.objects[static_cast<std::size_t>(object)]).n[middle];
+  }
+
+  /// ratio: of the indices before and beyond glass; empty: a mirror. About the shading normal, unless that sends the look to the wrong side
+  /// of the triangle: then about the triangle's own. True where it went through.
+  bool bend(const Place& place, std::optional<double> ratio)
+  {
+    const double side = glm::dot(way_, place.geometric) < 0 ? 1 : -1;
+    for (const glm::dvec3& normal : {side * place.shading, side * place.geometric}) {
+      if (glm::dot(way_, normal) >= 0) continue;
+      const glm::dvec3 refracted = ratio ? glm::refract(way_, normal, *ratio) : glm::dvec3(0); // 0: totally reflected
+      const bool through = refracted != glm::dvec3(0);
+      const glm::dvec3 bent = through ? refracted : glm::reflect(way_, normal);
+      if ((side * glm::dot(bent, place.geometric) < 0) != through) continue;
+      way_ = glm::normalize(bent);
+      return through;
+    }
+    return false; // along the triangle: straight on
+  }
+
+  const scene::Scene& scene_;
+  const scene::Bvh& bvh_;
+  glm::dvec3 from_, way_;
+  std::vector<int> inside_;                  ///< the dielectric objects around `from_`, the one entered last at the end
+  std::uint32_t left_ = scene::no_primitive; ///< that the look leaves
+  double length_ = 0;
+};
+
+/// A place as the camera sees it: x and y in pixels, times z; z along the view.
+using Seen = glm::dvec3;
+
+class Marks {
+public:
+  explicit Marks(const scene::Camera& camera) : camera_(camera), marked_(camera.pixels()) {}
+
+  Seen see(const glm::dvec3& place) const
+  {
+    const glm::dvec3 way = place - glm::dvec3(camera_.position);
+    const double z = glm::dot(way, glm::dvec3(camera_.forward)), x = glm::dot(way, glm::dvec3(camera_.right)) / camera_.tan_x,
+                 y = glm::dot(way, glm::dvec3(camera_.up)) / camera_.tan_y;
+    return {(x + z) / 2 * camera_.width, (z - y) / 2 * camera_.height, z};
+  }
+
+  /// Marks, row by row, what lies between the sides of a triangle, and what its outline touches.
+  void mark(const std::array<Seen, 3>& corners)
+  {
+    // The part before the eye; what is nearer than a ten thousandth of the farthest corner is as good as beside it.
+    const double farthest = std::max({corners[0].z, corners[1].z, corners[2].z}), near = 1e-4 * farthest;
+    if (!(farthest > 0)) return;
+    points_.clear();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Seen &a = corners[i], &b = corners[(i + 1) % 3];
+      if (a.z >= near) points_.push_back(a);
+      if ((a.z >= near) != (b.z >= near)) points_.push_back(a + (near - a.z) / (b.z - a.z) * (b - a));
+    }
+    for (Seen& p : points_) p = {p.x / p.z, p.y / p.z, 1};
+    const auto [top, bottom] = std::ranges::minmax_element(points_, [](const Seen& a, const Seen& b) { return a.y < b.y; });
+    for (int row = index(top->y - margin, camera_.height); row <= index(bottom->y + margin, camera_.height); ++row) mark_row(row);
+  }
+
+  /// The same of an ellipsoid: of a ball of triangles just outside of it. Facets of 1/32 of a turn each way come within cos^2(pi / 32) =
+  /// 0.9904 of their corners' distance to the middle.
+  void mark(const scene::Ellipsoid& ellipsoid)
+  {
+    constexpr int around = 32;
+    constexpr double angle = 2 * std::numbers::pi / around, scale = 1.01;
+    const auto corner = [&](int ring, int i) {
+      const double polar = ring * angle, turn = i * angle;
+      glm::dvec3 place = ellipsoid.centre;
+      place += scale * std::cos(polar) * glm::dvec3(ellipsoid.half_axes[1]);
+      place += scale * std::sin(polar) * std::cos(turn) * glm::dvec3(ellipsoid.half_axes[0]);
+      return see(place + scale * std::sin(polar) * std::sin(turn) * glm::dvec3(ellipsoid.half_axes[2]));
+    };
+    for (int ring = 0; ring < around / 2; ++ring)
+      for (int i = 0; i < around; ++i) {
+        mark(std::array{corner(ring, i), corner(ring + 1, i), corner(ring + 1, i + 1)});
+        mark(std::array{corner(ring, i), corner(ring + 1, i + 1), corner(ring, i + 1)});
+      }
+  }
+
+  const std::vector<bool>& marked() const { return marked_; }
+
+private:
+  /// Single precision decides which pixel a path is of.
+  static constexpr double margin = 0.01;
+
+  static int index(double at, int size) { return static_cast<int>(std::clamp(std::floor(at), 0.0, size - 1.0)); }
+
+  /// What of the outline lies within the row's height, from the leftmost to the rightmost.
+  void mark_row(int row)
+  {
+    const double top = row - margin, bottom = row + 1 + margin;
+    double left = std::numeric_limits<double>::max(), right = std::numeric_limits<double>::lowest();
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const Seen &a = points_[i], &b = points_[(i + 1) % points_.size()];
+      if (std::max(a.y, b.y) < top || std::min(a.y, b.y) > bottom) continue;
+      for (const double y : {std::clamp(a.y, top, bottom), std::clamp(b.y, top, bottom)}) {
+        const double x = a.y == b.y ? (y == a.y ? a.x : b.x) : a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+        left = std::min({left, x, a.y == b.y ? b.x : x});
+        right = std::max({right, x, a.y == b.y ? b.x : x});
+      }
+    }
+    if (right + margin < 0 || left - margin > camera_.width) return;
+    const auto first = static_cast<std::ptrdiff_t>(row) * camera_.width;
+    std::fill(marked_.begin() + first + index(left - margin, camera_.width),
+              marked_.begin() + first + index(right + margin, camera_.width) + 1, true);
+  }
+
+  const scene::Camera& camera_;
+  std::vector<bool> marked_;
+  std::vector<Seen> points_;
+};
+
+} // namespace
+
+Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, int column, int row)
+{
+  const scene::Camera& camera = scene.camera;
+  const double x = 2 * (column + 0.5) / camera.width - 1, y = 1 - 2 * (row + 0.5) / camera.height;
+  const glm::dvec3 way =
+      glm::dvec3(camera.forward) + x * camera.tan_x * glm::dvec3(camera.right) + y * camera.tan_y * glm::dvec3(camera.up);
+  const double spacing = 2 * std::max(camera.tan_x / camera.width, camera.tan_y / camera.height) / glm::length(way);
+  Look look(scene, bvh, glm::normalize(way));
+  Sight sight;
+  for (int surface = 0; surface < most_surfaces; ++surface) {
+    const std::optional<Place> place = look.next();
+    if (!place) break;
+    const scene::Object& object = scene.objects[static_cast<std::size_t>(place->object)];
+    const Type type = material_of(scene, object).type;
+    const glm::dvec3 arrives = look.way();
+    if (type == Type::mirror) look.reflect(*place);
+    if (type == Type::dielectric && !look.cross(*place)) continue;
+    const bool is_first = sight.first.object < 0;
+    if (is_first || type == Type::diffuse) {
+      sight.last = {glm::vec3(place->position), glm::vec3(place->geometric), place->object};
+      sight.way = glm::vec3(arrives);
+      sight.spacing = static_cast<float>(spacing * look.length());
+    }
+    if (is_first) sight.first = sight.last;
+    if (type == Type::diffuse) break;
+  }
+  return sight;
+}
+
+std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene)
+{
+  Marks marks(scene.camera);
+  for (const scene::Object& object : scene.objects) {
+    if (material_of(scene, object).type == scene::Material::Type::diffuse) continue;
+    for (const glm::uvec3& triangle : scene::triangles_of(scene, object)) {
+      std::array<Seen, 3> corners;
+      for (int c = 0; c < 3; ++c) corners[static_cast<std::size_t>(c)] = marks.see(scene.geometry.positions[triangle[c]]);
+      marks.mark(corners);
+    }
+    for (const scene::Ellipsoid& ellipsoid : scene::ellipsoids_of(scene, object)) marks.mark(ellipsoid);
+  }
+  std::vector<std::uint32_t> pixels;
+  for (std::size_t i = 0; i < marks.marked().size(); ++i)
+    if (marks.marked()[i] || !scene.camera.inside.empty()) pixels.push_back(static_cast<std::uint32_t>(i));
+  return pixels;
+}
+
+} // namespace nephroid::photons

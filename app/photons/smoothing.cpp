@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photons/smoothing.h"
+
+#include "base/parallel.h"
+#include "base/summed_area.h"
+#include "photons/mixture.h"
+#include "photons/plan_part.h"
+#include "tracing/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace nephroid::photons {
+namespace {
+
+/// How far a kernel may reach, and how far around a pixel its noise is asked for, in pixels.
+constexpr int reach = 6, noise_reach = 7;
+constexpr std::size_t block_rows = 64;
+
+/// Two pixels are on one nearly flat part where their normals and the way between them are within about 25 and 30 degrees of it.
+constexpr float least_cosine = 0.9f, most_rise = 0.5f;
+
+/// Glass or a mirror is curved where neighbours show places more than so many times farther apart than a flat one would, and so far around,
+/// in pixels.
+constexpr float most_pull = 2;
+constexpr int pull_reach = 2;
+
+/// How far around a pixel the bias of what is spread is asked for, in pixels.
+constexpr int bias_reach = 12;
+
+struct Offset {
+  int x, y;
+  int distance2() const { return x * x + y * y; }
+};
+
+/// The pixels within reach, nearest first.
+const std::vector<Offset>& offsets()
+{
+  static const std::vector<Offset> sorted = [] {
+    std::vector<Offset> offsets;
+    for (int y = -reach; y <= reach; ++y)
+      for (int x = -reach; x <= reach; ++x)
+        if (x * x + y * y <= reach * reach) offsets.push_back({x, y});
+    std::ranges::stable_sort(offsets, [](const Offset& a, const Offset& b) { return a.distance2() < b.distance2(); });
+    return offsets;
+  }();
+  return sorted;
+}
+
+/// Variance over light around each pixel, means of R, G and B: of light that comes in equal portions, one portion. 0 in the dark.
+std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height)
+{
+  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
+  const SummedArea variances(width, height, [&](std::size_t i) {
+    const double r = error_draw[3 * i], g = error_draw[3 * i + 1], b = error_draw[3 * i + 2];
+    return (r * r + g * g + b * b) / 3;
+  });
+  std::vector<double> portion(light.size());
+  for (std::size_t i = 0; i < portion.size(); ++i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const double near = lights.mean(x, y, noise_reach);
+    portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_reach), 0.0) / near : 0;
+  }
+  return portion;
+}
+
+/// Calls work(i, j) for each pair of pixels side by side or one above the other, and `diagonal` those that touch at a corner.
+template <class Work>
+void for_neighbours(int width, int height, bool diagonal, const Work& work)
+{
+  const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+  for (std::size_t y = 0; y < rows; ++y)
+    for (std::size_t x = 0; x < columns; ++x) {
+      const std::size_t i = y * columns + x;
+      if (x + 1 < columns) work(i, i + 1);
+      if (y + 1 < rows) work(i, i + columns);
+      if (diagonal && x + 1 < columns && y + 1 < rows) work(i, i + columns + 1), work(i + 1, i + columns);
+    }
+}
+
+/// Whether neighbours show places of one object, in a mirror or through glass, that these have pulled apart.
+bool are_pulled_apart(const Sight& a, const Sight& b)
+{
+  if (a.first.object != b.first.object || a.last.object != b.last.object || a.first.object == a.last.object) return false;
+  const glm::vec3 way = b.last.position - a.last.position;
+  return glm::length(way - glm::dot(way, a.way) * a.way) > most_pull * std::max(a.spacing, b.spacing);
+}
+
+/// Of each pixel, whether places are pulled apart within pull_reach of it.
+std::vector<bool> are_near_pulled(const std::vector<Sight>& sights, int width, int height)
+{
+  std::vector<double> pulled(sights.size());
+  for_neighbours(width, height, false, [&](std::size_t i, std::size_t j) {
+    if (are_pulled_apart(sights[i], sights[j])) pulled[i] = pulled[j] = 1;
+  });
+  const SummedArea sums(width, height, [&](std::size_t i) { return pulled[i]; });
+  std::vector<bool> near(sights.size());
+  for (std::size_t i = 0; i < near.size(); ++i)
+    near[i] = sums.sum(static_cast<int>(i) % width, static_cast<int>(i) / width, pull_reach) > 0;
+  return near;
+}
+
+/// Adds to the draw of what is spread how far light was moved. With r what spreading has changed of the picture and q what it has of the
+/// draw, r + q and r - q are what it has changed of two halves with noise of their own, so that around a pixel
+///
+///   M = sum of (r + q)(r - q)    is that of the squares of the bias, give or take the root of S = sum of ((r + q)(r - q))^2, and
+///   g^2 = M / (sum of r^2) / (1 + S / M^2)    the share of r^2 that it is, as far as it stands out,
+///
+/// and g r a draw of the bias: r is the bias and the noise that was taken away, and the latter is no error of what is spread.
+void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
+              std::vector<float>& draw_spread, int width, int height)
+{
+  // r^2 + factor q^2, summed over R, G and B.
+  const auto changed = [&](std::size_t i, double factor) {
+    double sum = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      const double r = static_cast<double>(rgb_spread[c]) - rgb[c], q = static_cast<double>(draw_spread[c]) - error_draw[c];
+      sum += r * r + factor * q * q;
+    }
+    return sum;
+  };
+  const SummedArea change(width, height, [&](std::size_t i) { return changed(i, 0); });
+  const SummedArea product(width, height, [&](std::size_t i) { return changed(i, -1); });
+  const SummedArea square(width, height, [&](std::size_t i) { return std::pow(changed(i, -1), 2); });
+  for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const double bias2 = product.sum(x, y, bias_reach), change2 = change.sum(x, y, bias_reach);
+    if (bias2 <= 0 || change2 <= 0) continue;
+    const double scatter2 = std::max(square.sum(x, y, bias_reach), 0.0);
+    const auto g = static_cast<float>(std::sqrt(std::min(bias2 / change2 / (1 + scatter2 / (bias2 * bias2)), 1.0)));
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) draw_spread[c] += g * (rgb_spread[c] - rgb[c]);
+  }
+}
+
+/// Of R, G and B.
+std::vector<double> light_of(std::span<const float> rgb)
+{
+  std::vector<double> light(rgb.size() / 3);
+  for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
+  return light;
+}
+
+/// How much of each pixel's light is for the better spread, 0..1. Of the picture m = truth + noise, spreading makes m + r, and of a share s
+/// of its light m + s r. The square of its error is larger than that of m by
+///
+///   s^2 E[r^2] + 2 s E[r noise],    smallest at    s = -E[r noise] / E[r^2].
+///
+/// The halves m + d and m - d of the film, each spread by kernels of its own, change by r_a and r_b. The one's noise is not in the other,
+/// so E[r_a d] and -E[r_b d] are what each has of E[r noise], with twice the noise that m has: q = (r_a - r_b) / 2 gives E[r noise] = E[q
+/// d]. That kernels follow the noise is in it, too. Means are taken around the pixel, over R, G and B; the square of an error counts over
+/// the light there, so that every photon counts alike.
+std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const float> error_draw, std::span<const float> rgb_spread,
+                                     std::span<const float> a_spread, std::span<const float> b_spread, std::span<const double> light,
+                                     int width, int height)
+{
+  constexpr double least_light = 0.01; // of white
+  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
+  const auto over_light = [&](std::size_t i, const auto& term) {
+    double sum = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c);
+    return sum / (least_light + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_reach));
+  };
+  const SummedArea change(width, height, [&](std::size_t i) {
+    return over_light(i, [&](std::size_t c) { return std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2); });
+  });
+  const SummedArea gain(width, height, [&](std::size_t i) {
+    return over_light(i, [&](std::size_t c) {
+      const double d = error_draw[c], q = (static_cast<double>(a_spread[c]) - b_spread[c]) / 2 - d;
+      return -q * d;
+    });
+  });
+  std::vector<float> share(light.size());
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const double changed = change.sum(x, y, bias_reach);
+    share[i] = changed > 0 ? static_cast<float>(std::clamp(gain.sum(x, y, bias_reach) / changed, 0.0, 1.0)) : 0;
+  }
+  return share;
+}
+
+/// What the pixels show.
+struct Seeing {
+  int width, height;
+  std::span<const Smoothing::Seen> seen; ///< [pixel]
+};
+
+/// Where a pixel's light may go: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step.
+struct Kernel {
+  std::vector<std::size_t> pixels; ///< nearest first
+  std::size_t inside = 0;          ///< of `pixels`, those before the outermost ring
+  double ring_weight = 1;          ///< of a pixel of that ring, 0..1
+};
+
+/// What says where light goes, [pixel].
+struct Weights {
+  std::span<const double> light, wanted; ///< of find_kernel
+  std::span<const double> favour;        ///< that a pixel finds in every kernel
+};
+
+bool are_level(const Smoothing::Seen& a, const Smoothing::Seen& b)
+{
+  if (a.first != b.first || a.surface.object != b.surface.object || a.at_edge != b.at_edge || a.first < 0) return false;
+  const glm::vec3 &n = a.surface.normal, &m = b.surface.normal, way = b.surface.position - a.surface.position;
+  return glm::dot(n, m) > least_cosine && std::abs(glm::dot(way, n + m)) <= 2 * most_rise * glm::length(way);
+}
+
+/// The one of pixel i that holds `wanted` of `light`, or reaches as far as any may.
+void find_kernel(const Seeing& at, std::size_t i, double wanted, std::span<const double> light, Kernel& kernel)
+{
+  const int x = static_cast<int>(i) % at.width, y = static_cast<int>(i) / at.width;
+  kernel.pixels.clear();
+  kernel.inside = 0;
+  kernel.ring_weight = 1;
+  double inside = 0, ring = 0;
+  int distance2 = 0;
+  for (const Offset& o : offsets()) {
+    if (o.distance2() > distance2) {
+      if (inside + ring >= wanted) break;
+      inside += std::exchange(ring, 0);
+      kernel.inside = kernel.pixels.size();
+      distance2 = o.distance2();
+    }
+    const int u = x + o.x, v = y + o.y;
+    if (u < 0 || u >= at.width || v < 0 || v >= at.height) continue;
+    const std::size_t j = static_cast<std::size_t>(v) * static_cast<std::size_t>(at.width) + static_cast<std::size_t>(u);
+    if (j != i && !are_level(at.seen[i], at.seen[j])) continue;
+    kernel.pixels.push_back(j);
+    ring += light[j];
+  }
+  if (kernel.inside > 0 && ring > 0) kernel.ring_weight = std::clamp((wanted - inside) / ring, 0.0, 1.0);
+}
+
+/// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j: as its kernel has it times
+/// favour[j]; a pixel's parts are 1 together. On every core, each with its own j.
+template <class Needed, class Give>
+void give_parts(const Seeing& at, const Weights& by, const Needed& needed, const Give& give)
+{
+  // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of cores.
+  for_ranges(static_cast<std::size_t>(at.height), block_rows, [&](std::size_t, Range rows) {
+    const std::size_t width = static_cast<std::size_t>(at.width), first = rows.begin * width, end = rows.end * width;
+    const std::size_t from = (rows.begin - std::min<std::size_t>(rows.begin, reach)) * width;
+    const std::size_t to = std::min<std::size_t>(rows.end + reach, static_cast<std::size_t>(at.height)) * width;
+    Kernel kernel;
+    for (std::size_t i = from; i < to; ++i) {
+      if (!needed(i)) continue;
+      find_kernel(at, i, by.wanted[i], by.light, kernel);
+      const auto weight = [&](std::size_t k) { return (k < kernel.inside ? 1 : kernel.ring_weight) * by.favour[kernel.pixels[k]]; };
+      double sum = 0;
+      for (std::size_t k = 0; k < kernel.pixels.size(); ++k) sum += weight(k);
+      for (std::size_t k = 0; k < kernel.pixels.size(); ++k)
+        if (const std::size_t j = kernel.pixels[k]; j >= first && j < end) give(i, j, weight(k) / sum);
+    }
+  });
+}
+
+/// Of what a pixel has, `share` is spread; the rest stays. error_draw: may be empty.
+void spread_shares(const Seeing& at, const Weights& by, std::span<const float> share, std::vector<float>& rgb,
+                   std::vector<float>& error_draw)
+{
+  const std::vector<float> rgb_kept = rgb, draw_kept = error_draw;
+  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = (1 - share[i / 3]) * rgb_kept[i];
+  for (std::size_t i = 0; i < error_draw.size(); ++i) error_draw[i] = (1 - share[i / 3]) * draw_kept[i];
+  const auto is_zero = [](const std::vector<float>& v, std::size_t i) {
+    return v.empty() || (v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0);
+  };
+  give_parts(
+      at, by, [&](std::size_t i) { return share[i] > 0 && (!is_zero(rgb_kept, i) || !is_zero(draw_kept, i)); },
+      [&](std::size_t i, std::size_t j, double part) {
+        const float given = share[i] * static_cast<float>(part);
+        for (std::size_t c = 0; c < 3; ++c) rgb[3 * j + c] += given * rgb_kept[3 * i + c];
+        if (!draw_kept.empty())
+          for (std::size_t c = 0; c < 3; ++c) error_draw[3 * j + c] += given * draw_kept[3 * i + c];
+      });
+}
+
+/// Of each pixel's light, what is for the better spread. rgb_spread: with all of it spread.
+std::vector<float> shares(const Seeing& at, const Weights& by, const std::vector<float>& rgb, const std::vector<float>& error_draw,
+                          const std::vector<float>& rgb_spread)
+{
+  const std::vector<float> whole(at.seen.size(), 1);
+  std::vector<float> a(rgb.size()), b(rgb.size()), none;
+  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), a.begin(), std::plus());
+  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), b.begin(), std::minus());
+  for (std::vector<float>* half : {&a, &b}) {
+    const std::vector<double> light = light_of(*half);
+    spread_shares(at, {light, by.wanted, by.favour}, whole, *half, none);
+  }
+  return worthwhile_shares(rgb, error_draw, rgb_spread, a, b, by.light, at.width, at.height);
+}
+
+/// Adds to a picture of which shares are spread, and to the draw of its error, what is known otherwise as far as that is for the better: as
+/// it is, or with the light that it has too little or too much of around each pixel. rgb, error_draw: before.
+void mix_with_known(const Seeing& at, const Weights& by, std::span<const float> share, const std::vector<float>& rgb,
+                    const std::vector<float>& error_draw, std::span<const float> known, std::vector<float>& rgb_spread,
+                    std::vector<float>& draw_spread)
+{
+  struct Version {
+    std::vector<float> picture, known;
+  };
+  // The picture or one of its halves, spread by its own light, and what is known spread by the same.
+  const auto spread = [&](float sign) {
+    Version version{rgb, {known.begin(), known.end()}};
+    for (std::size_t i = 0; i < rgb.size(); ++i) version.picture[i] += sign * error_draw[i];
+    const std::vector<double> light = light_of(version.picture);
+    spread_shares(at, {light, by.wanted, by.favour}, share, version.picture, version.known);
+    return version;
+  };
+  Version whole = spread(0);
+  const Version a = spread(1), b = spread(-1);
+  Estimate as_known{std::vector<float>(rgb.size()), std::vector<float>(rgb.size())}, evened = as_known;
+  rgb_spread = std::move(whole.picture);
+  for (std::size_t i = 0; i < rgb.size(); ++i) {
+    draw_spread[i] = (a.picture[i] - b.picture[i]) / 2;
+    as_known.change[i] = known[i] - rgb_spread[i];
+    as_known.draw[i] = -draw_spread[i];
+    evened.change[i] = known[i] - whole.known[i];
+    evened.draw[i] = (b.known[i] - a.known[i]) / 2;
+  }
+  mix(rgb, error_draw, std::array{as_known, evened}, by.light, at.width, at.height, rgb_spread, draw_spread);
+}
+
+} // namespace
+
+Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, Spread spread)
+    : width_(scene.camera.width), height_(scene.camera.height), spread_(spread)
+{
+  scene::Scene seen = scene;
+  seen.environment.reset(); // the largest part of a scene, and no look needs it
+  view_ = std::make_unique<const View>(View{std::move(seen), bvh});
+}
+
+void Smoothing::look()
+{
+  if (!view_) return;
+  const std::unique_ptr<const View> view = std::move(view_);
+  seen_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  std::vector<Sight> sights(seen_.size());
+  for_ranges(sights.size(), 1 << 10, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      sights[i] = look_through_pixel(view->scene, view->bvh, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
+  });
+  const std::vector<bool> pulled = are_near_pulled(sights, width_, height_);
+  for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i] = {pulled[i] ? sights[i].first : sights[i].last, sights[i].first.object};
+  for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
+    if (seen_[i].first == seen_[j].first && seen_[i].surface.object == seen_[j].surface.object) return;
+    seen_[i].at_edge = seen_[j].at_edge = true;
+  });
+}
+
+std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
+{
+  constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
+  return tracing::tree_bytes(bvh) + tracing::surface_bytes(scene) + (sizeof(Sight) + sizeof(Seen) + pulled_apart) * scene.camera.pixels();
+}
+
+void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate)
+{
+  if (error_draw.empty()) return;
+  look();
+  const std::vector<double> light = light_of(rgb);
+  std::vector<double> wanted = portions(light, error_draw, width_, height_);
+  for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
+
+  // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
+  // Knopp (1967) evens that out, and still every pixel gives away what it has.
+  std::vector<double> favour(seen_.size(), 1), taken(seen_.size());
+  const Weights by{light, wanted, favour};
+  const Seeing at{width_, height_, seen_};
+  give_parts(
+      at, by, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
+  std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
+
+  std::vector<float> rgb_spread = rgb, draw_spread = error_draw;
+  std::vector<float> share(seen_.size(), 1);
+  spread_shares(at, by, share, rgb_spread, draw_spread);
+  if (spread_ == Spread::where_it_helps) {
+    share = shares(at, by, rgb, error_draw, rgb_spread);
+    rgb_spread = rgb, draw_spread = error_draw;
+    if (estimate.empty())
+      spread_shares(at, by, share, rgb_spread, draw_spread);
+    else
+      mix_with_known(at, by, share, rgb, error_draw, estimate, rgb_spread, draw_spread);
+  }
+  add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
+  rgb = std::move(rgb_spread);
+  error_draw = std::move(draw_spread);
+}
+
+namespace {
+
+plan::Pass smoothing_pass(const PlanInput& input)
+{
+  const char* const name = "smoothing";
+  using Choice = Settings::Smoothing;
+  const Choice choice = input.settings.smoothing;
+  if (choice == Choice::off) return {name, false, "spectral.smoothing is off"};
+  if (!input.caustics.runs) return {name, false, "there are no caustics"};
+  if (input.is_sppm()) return {name, false, "spectral.estimator is sppm, which has radii of its own"};
+  if (!input.estimate.runs)
+    return {name, false, "measure.estimate is false: nothing tells how noisy a pixel is", "/measure/estimate", true};
+  if (input.preset.stop.passes == 1) return {name, false, "the run has one pass, and it takes two to tell how noisy a pixel is"};
+  return {name, true,
+          fmt::format("a pixel's caustics are spread until their noise is {} of them, {}; the estimated error takes in how far it goes",
+                      Smoothing::noise, choice == Choice::on ? "everywhere" : "where the two halves of the film say that it helps")};
+}
+
+PlanPart plan_smoothing(const PlanInput& input)
+{
+  const plan::Pass pass = smoothing_pass(input);
+  PlanPart part;
+  if (input.caustics.runs) part.passes = {pass};
+  if (pass.runs) part.buffers = {{"surfaces in pixels (host)", Smoothing::bytes(input.scene, input.bvh), true}};
+  if (input.settings.smoothing != Settings::Smoothing::on) return part;
+  if (!pass.runs)
+    part.notes = {"spectral.smoothing: on does nothing here: " + pass.reason};
+  else if (input.preset.stop.error && !input.preset.reference)
+    part.notes = {"stop.error: the run's own estimate may not know how far spectral.smoothing moves light; a 'reference' does"};
+  return part;
+}
+
+} // namespace
+
+const RunPart smoothing_part{plan_smoothing};
+
+} // namespace nephroid::photons

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Caustics of few photons made smooth: the light of every pixel is spread over as many pixels around it as make its noise small enough.
+//
+// Photons on a surface are a sample of a density, and a histogram over pixels is the noisiest estimate of it. This is the sample-point
+// estimate with adaptive kernels (Abramson 1982, "On bandwidth variation in kernel estimates"): narrow where photons are dense, so that
+// bright lines stay sharp, wide where they are few. A pixel that is not noisy is left alone, and in the end none is noisy: the limit is
+// that of the plain film. Power is neither lost nor made.
+#pragma once
+#include "photons/sight.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace nephroid::photons {
+
+class Smoothing {
+public:
+  /// everywhere: light is spread as far as its noise asks for; where_it_helps: only as much of it as the halves say is for the better.
+  enum class Spread { where_it_helps, everywhere };
+  /// What is allowed of noise: the root of the mean variance of R, G and B over the mean of R, G and B. Of grey photons a kernel holds 1 /
+  /// noise^2 = 16. A smaller one blurs what need not be.
+  static constexpr double noise = 0.25;
+
+  /// Looks once through the middle of every pixel, on every core. Light is spread within one nearly flat part of the diffuse object that
+  /// the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where glass or a mirror shows none, or
+  /// is curved so that neighbours show places far apart, it is spread within one nearly flat part of the glass or mirror.
+  /// The looks wait until the first call of look() or spread(), for they would hold up a run's first picture: until then it keeps a copy
+  /// of what is looked at.
+  Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, Spread spread);
+  void look();
+
+  /// What it takes at most, in bytes.
+  static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
+
+  /// rgb: of caustics alone, [pixel][3] of the camera's size. error_draw: a draw of its error (Picture::error_draw), which tells how noisy
+  /// a pixel is; it becomes one of the error of what is spread, the bias included. Values below 0, of colours outside of sRGB, count as
+  /// no light when kernels are chosen. Nothing changes where the draw is empty.
+  /// estimate: the same light as somebody knows it without noise, but not quite right; may be empty. Then each place gets the mixture of
+  /// it, of what is spread and of what is not that the halves say is best (mixture.h).
+  void spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate = {});
+
+  /// What a pixel shows, as far as light may be spread over it.
+  struct Seen {
+    Sight::Surface surface; ///< the diffuse one at the end of a look, or the first of glass or a mirror
+    int first = -1;         ///< the object that is met first; -1: none
+    bool at_edge = false;   ///< whether a neighbour shows something else: then the pixel may hold light of that
+  };
+
+private:
+  /// What is looked at.
+  struct View {
+    scene::Scene scene; ///< but for its environment
+    scene::Bvh bvh;
+  };
+  int width_, height_;
+  Spread spread_;
+  std::unique_ptr<const View> view_; ///< null: all looks are taken
+  std::vector<Seen> seen_;           ///< [pixel]
+};
+
+} // namespace nephroid::photons

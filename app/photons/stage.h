@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// One kind of work that every pass of engine 1 has: the direct layer, photons that are splatted, photon maps, ... A stage owns its
+// kernels and films; the job gives each its turn. Sums are exact, so how a stage cuts its pass into steps changes no bit. Each file
+// NAME_stage.cpp has one.
+#pragma once
+#include "job/job.h"
+#include "photons/energy.h"
+#include "photons/plan_part.h"
+#include "photons/tables/device_world.h"
+#include "preset/preset.h"
+#include "scene/scene.h"
+#include "tracing/state.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace nephroid::photons {
+
+/// A path from the eye takes about twice as long as a photon; of the layers "direct" and "background" glass has so many a sample
+/// (PATHS_THROUGH_GLASS in kernels/tracing/eye_path.h).
+inline constexpr double work_of_a_path = 2, paths_through_glass = 4;
+
+class Stage {
+public:
+  virtual ~Stage() = default;
+  /// Of its phase in run.json.
+  virtual const char* name() const = 0;
+  /// Runs its kernels once without effect on what it computes: OpenCL compiles them when they first run, and that is no work of the run's.
+  /// The shared energy counters are the caller's to reset.
+  virtual void warm_up()
+  {
+    ByteStore kept; // little: films are still all 0, and such pieces are left out
+    tracing::State before(kept);
+    state(before);
+    step(0);
+    StoredBytes bytes(kept.bytes(), name());
+    tracing::State back(bytes);
+    state(back);
+  }
+  /// How many passes it takes part in: what has had enough samples takes no more.
+  virtual std::int64_t passes() const { return preset::max_passes; }
+  /// One step of about 50 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.
+  virtual bool step(std::int64_t pass) = 0;
+  /// How much of the pass in hand is done, 0..1, 0 before its first step and after its last.
+  virtual double part() const = 0;
+  /// Adds its layers to the picture, and its error to Picture::error_draw (add_layer in film.h), as the means of `passes` complete passes
+  /// and what is done of the one in hand, which has the number `passes`; done: whether it has had its turn in that pass already.
+  virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;
+  /// Adds the radiance of its layer in a pixel, as develop; false where its film knows colours only.
+  virtual bool add_spectrum(std::int64_t /*passes*/, bool /*done*/, job::PixelSpectrum& /*to*/) { return false; }
+  /// Adds where the power of its photons went in the same passes, if it keeps counters of its own.
+  virtual void report(std::int64_t /*passes*/, bool /*done*/, Energy& /*energy*/) {}
+  /// Work of a pass on pixels of glass, in photons, as the mean of passes; 0: it is not to be shared out.
+  virtual double glass_work() const { return 0; }
+  /// How much of it the next passes are to have, as a multiple of what glass_work() says.
+  virtual void share_work(double /*factor*/) {}
+  /// Photons sent in one pass; 0 where it sends none.
+  virtual std::uint64_t photons_per_pass() const { return 0; }
+  /// Whether theirs is the power in DeviceWorld::energy.
+  virtual bool counts_energy() const { return false; }
+  /// Everything that it needs to go on with the same bits.
+  virtual void state(tracing::State& state) = 0;
+};
+
+/// RunPart::make.
+template <class Kind>
+std::unique_ptr<Stage> make_stage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
+{
+  return std::make_unique<Kind>(world, scene, settings);
+}
+
+} // namespace nephroid::photons

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the stages of a job share: the scene on its device, the run's tables, the energy counters.
+#pragma once
+#include "photons/maps/photon_map.h"
+#include "photons/tables/run_tables.h"
+#include "tracing/step_size.h"
+#include "tracing/world.h"
+
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace nephroid::photons {
+
+/// Pixels that paths from the eye are for.
+struct PixelLists {
+  std::vector<std::uint32_t> glass;         ///< glass_pixels() in sight.h
+  std::vector<bool> may_show_glass;         ///< [pixel]
+  std::uint32_t count = 0;                  ///< pixels of the picture
+  compute::Buffer<std::uint32_t> on_device; ///< all of them, then those of glass
+};
+
+struct Relighting;
+
+struct DeviceWorld : tracing::World {
+  RunTables tables;
+  double white = 1;
+  unsigned halves = 2;                    ///< of a film: 2 where the error is estimated (tracing/film.h)
+  compute::Buffer<std::int64_t> energy{}; ///< [OUTCOME_COUNT] quanta
+  compute::Buffer<shared::DeviceEmitter> emitters{};
+  PixelLists pixels{};
+  std::optional<PhotonMap> map{};           ///< that photons which are splatted go to as well, where a stage gathers them
+  std::shared_ptr<Relighting> relighting{}; ///< where layers are kept for another light
+
+  /// The number of 64-bit sums of a film of XYZ.
+  std::size_t film_size() const
+  {
+    return std::size_t{3} * halves * static_cast<std::size_t>(tables.camera.width) * static_cast<std::size_t>(tables.camera.height);
+  }
+  /// Runs a kernel that sends a slice of the photons of a pass.
+  void send(compute::Kernel& kernel, const tracing::Slice& slice, std::int64_t pass, std::initializer_list<compute::Argument> own)
+  {
+    run_photons(kernel, slice.count, own,
+                {{"camera", tables.camera},
+                 {"pass", static_cast<std::uint32_t>(pass)},
+                 {"offset", slice.offset},
+                 {"stride", slice.stride},
+                 {"count", slice.count}});
+  }
+  /// A scale for powers as the device knows them.
+  float on_device(double scale) const { return static_cast<float>(scale * tables.power_unit); }
+};
+
+} // namespace nephroid::photons

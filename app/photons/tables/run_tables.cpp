@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photons/tables/run_tables.h"
+
+#include "photons/clusters/clusters.h"
+#include "photons/effort/emitters.h"
+#include "photons/effort/importance.h"
+#include "photons/maps/photon_map.h"
+#include "tracing/scales.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace nephroid::photons {
+namespace {
+
+using std::numbers::pi;
+
+/// weights: ClusterShares::photons.
+std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, const tracing::WavelengthTables& tables)
+{
+  std::vector<PhotonSource> sources;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const std::size_t l = i / tables.clusters.size(), c = i % tables.clusters.size();
+    sources.push_back({weights[i], static_cast<int>(l), static_cast<int>(c), tables.share[l][c]});
+  }
+  return sources;
+}
+
+/// The direct film gets 2^24 quanta for a surface that the light reaches from the scene's radius, and a limit that the pixel's samples
+/// cannot exceed together: with 64 of them 2^56, which a lamp at 1 / 65000 of the radius reaches.
+void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables)
+{
+  const double metres = scene.metres_per_unit, radius = tracing::scene_bounds(scene).radius;
+  tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_pass, tables.light_towards_targets_w);
+  double irradiance = 0;
+  for (const scene::Light& light : scene.lights)
+    irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(radius * metres, 2));
+  tables.direct_scale = tracing::power_of_two_below(std::exp2(24) * pi / irradiance);
+  tables.direct_limit = std::exp2(62) / pixel_samples;
+  tables.energy_scale = tracing::energy_scale(tables.light_towards_targets_w);
+}
+
+} // namespace
+
+RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh, const tracing::LeaveOut& leave_out)
+{
+  RunTables tables;
+  static_cast<tracing::SceneTables&>(tables) = tracing::make_scene_tables(scene, scene_clusters(settings, scene), leave_out);
+  ClusterShares shares = make_cluster_shares(settings, scene, bvh, tables.towards_targets_w, tables.wavelengths);
+  tables.emitters = make_emitters(photon_sources(shares.photons, tables.wavelengths), static_cast<unsigned>(settings.photons_per_pass));
+  tables.importance = std::move(shares.importance);
+  tables.photons_per_pass = count_photons(tables.emitters);
+  tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass);
+  tables.scene.max_surfaces = settings.max_surfaces;
+  tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
+  set_scales(scene, settings.pixel_samples, tables);
+  return tables;
+}
+
+} // namespace nephroid::photons

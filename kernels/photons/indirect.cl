@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the lights everywhere,
+// are bent by glass and mirrors and sent on by diffuse surfaces; from the second diffuse surface on, each adds to the pixel that sees it.
+// What a photon carries changes by absorption alone: Fresnel's reflectance, and the reflectance of a diffuse surface, decide by chance.
+#include "kernels/photons/photon_path.h"
+#include "kernels/photons/splat.h"
+
+// A photon of any direction that the light shines in. everything: one target, about the scene and the lights. An area light sends the same
+// power along every cosine-distributed direction; what emit() does, where directions are uniform, would be noisier.
+static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything, const DeviceScene* scene, float4 random,
+                                       float2 place)
+{
+  if (is_light(&light, LIGHT_AREA)) {
+    const Emission emission = {area_point(&light, place), cosine_direction(light.direction.xyz, random.y, random.z), 0.0f, light.radiometric};
+    return emission;
+  }
+  light.first_target = 0;
+  light.target_count = 1;
+  return emit(&light, everything, scene, random, place);
+}
+
+typedef struct {
+  volatile __global long* film;
+  float scale; // quanta per unit of radiance
+  DeviceCamera camera;
+} Receiver;
+
+// A photon on its way.
+typedef struct {
+  Path path;
+  Band band;
+  Source source;
+  float watts;   // as if the band had all of the light's power
+  float shading; // product of shading_ratio over the diffuse surfaces that it has left
+} Photon;
+
+// Adds what a diffuse surface reflects of a photon to the pixel that sees it. False where the film refused it.
+static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface, uint triangle,
+                        int reflector, float dither)
+{
+  const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
+  if (splat.pixel < 0) return true;
+  const float3 xyz = carried_light(world, &photon->path.losses, photon->source, &photon->band, reflector).xyz;
+  const float scale = photon->watts * photon->shading * splat.weight / PI_F;
+  return film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither);
+}
+
+// Follows a photon to its end: OUTCOME_*. *refused counts what the film refused.
+static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint pass, uint number, long* refused)
+{
+  Path* path = &photon->path;
+  bool met_diffuse = false;
+  for (int surface_number = 0;; ++surface_number) {
+    const Hit hit = next_hit(world, path);
+    if (hit.primitive == NEPHROID_NO_PRIMITIVE) return OUTCOME_ESCAPED;
+    const Surface surface = surface_at(&world->geometry, world->objects, hit);
+    const DeviceMaterial material = material_of(world, surface.object);
+    lose_in_medium(world, path, hit.t);
+    const float4 random = random4(seed, pass, number, 2u + (uint)surface_number, STREAM_INDIRECT);
+    if (material.type == MATERIAL_DIFFUSE) {
+      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w)) ++*refused;
+      met_diffuse = true;
+      photon->shading *= shading_ratio(&surface, path->direction);
+      if (random.x >= world->tables.reflectance[material.reflector * WAVELENGTH_COUNT + photon->band.wavelength]) return OUTCOME_ABSORBED;
+      const float side = dot(path->direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
+      path->direction = cosine_direction(side * surface.geometric, random.y, random.z);
+      path->origin = start_on_side(&surface, side);
+      path->skip = hit.primitive;
+      path->behind = 0.0f;
+    }
+    if (surface_number == world->scene.max_surfaces) return OUTCOME_LOST;
+    float n_ratio;
+    if (material.type != MATERIAL_DIFFUSE && !bend_path(world, path, hit.primitive, &surface, &material, &photon->band, random.x, &n_ratio))
+      return OUTCOME_LOST;
+  }
+}
+
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. emitters: one for each light that has photons.
+__kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global const DeviceEmitter* emitters, int emitter_count,
+                       __global const float* spectrum_cdf, // [light][member of all clusters]: which wavelength a photon has
+                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+                       DeviceCamera camera, uint2 seed, uint pass, uint offset, uint stride, uint count, float outside_distance,
+                       float film_scale, float energy_scale)
+{
+  scene.outside_distance = outside_distance;
+  const World world = WORLD;
+  const int members = cluster_first[scene.cluster_count];
+  const Receiver receiver = {film_of_pass(film, pass, camera.width * camera.height), film_scale, camera};
+  long outcomes[OUTCOME_COUNT] = {0};
+  for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
+    const uint item = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
+    if (item >= count) break;
+    const uint number = offset + stride * item;
+    const DeviceEmitter emitter = emitters[emitter_of(emitters, emitter_count, number)];
+    DeviceLight light = lights[emitter.light];
+    const float4 random = random4(seed, pass, number, 0u, STREAM_INDIRECT);
+    const float2 place = has_places(&light) ? random4(seed, pass, number, 1u, STREAM_INDIRECT).xy : (float2)(0.0f);
+    const Source source = source_of(&world, emitter.light, place, &light);
+    const Emission emission = emit_everywhere(light, everything, &scene, random, place);
+    if (emission.watts == 0.0f) continue;
+    Photon photon = {{emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind},
+                     wavelength_of_cluster(0, cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w),
+                     source,
+                     emission.watts / (float)emitter.photon_count,
+                     1.0f};
+    const int outcome = follow_photon(&world, &receiver, &photon, seed, pass, number, outcomes + OUTCOME_REFUSED);
+    count_photon(outcomes, outcome, photon.watts * band_share(&world, photon.source, &photon.band, 0.0f) * energy_scale,
+                 wavelength_left(&world.tables, &photon.path.losses, photon.band.wavelength));
+  }
+  add_outcomes(energy, outcomes);
+}

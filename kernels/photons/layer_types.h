@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The films that relighting keeps, as the host and kernels share them: see layers.h.
+#ifndef NEPHROID_LAYER_TYPES_H
+#define NEPHROID_LAYER_TYPES_H
+
+#ifndef __OPENCL_C_VERSION__
+namespace nephroid::shared {
+#endif
+
+// Cells of one reflector come in blocks of so many.
+#define LAYER_BLOCK 64
+
+// What kernels/photons/relight_direct.cl looks at in each pixel before the first pass: fixed places, and paths of each through glass.
+#define SURVEY_PLACES 4
+#define SURVEY_PATHS 2
+
+// One reflector that a pixel sees.
+typedef struct {
+  int reflector;
+  int cell;
+} LayerCell;
+
+#ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(LayerCell) == 8);
+} // namespace nephroid::shared
+#endif
+
+#endif

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// The caustic layer: photons of each wavelength cluster leave the lights towards the caustic objects, are bent by glass and mirrors, and
+// are splatted into the pixel that sees the diffuse surface they reach.
+#include "kernels/photons/guide.h"
+#include "kernels/photons/pass_band.h"
+#include "kernels/photons/photon_map.h"
+#include "kernels/photons/stretch.h"
+
+// 1: photons go where they matter, and it is measured where that is.
+#ifndef NEPHROID_MOMENTS
+#define NEPHROID_MOMENTS 0
+#endif
+
+// 0: no splats.
+#ifndef NEPHROID_SPLAT
+#define NEPHROID_SPLAT 1
+#endif
+// 1: photons are stored for maps too.
+#ifndef NEPHROID_STORE
+#define NEPHROID_STORE 0
+#endif
+
+// The square of a contribution to the film in linear sRGB, in quanta of 2^12 of the film's squared, at most 2^40. The sum over an emitter's
+// photons says how many of all photons it should have (app/spectral/effort/emitters.h).
+static inline long squared(float3 xyz, float scale)
+{
+  const float3 q = xyz * (scale * 0x1p-6f);
+  const float r = dot(q, (float3)(3.2406f, -1.5372f, -0.4986f)), g = dot(q, (float3)(-0.9689f, 1.8758f, 0.0415f)),
+              b = dot(q, (float3)(0.0557f, -0.2040f, 1.0570f));
+  const float sum = r * r + g * g + b * b;
+  return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
+}
+
+// A photon on a diffuse surface is put into its slot of a photon map. band: pass_band.h. xyz: reflected power. scale: quanta of a unit of it.
+// dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot is empty, where a photon carries too much.
+static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band, int object_count, float3 xyz,
+                                float scale, float dither)
+{
+  const float3 quanta = xyz * scale;
+  const bool fits = quanta.x <= PHOTON_LIMIT && quanta.y <= PHOTON_LIMIT && quanta.z <= PHOTON_LIMIT;
+  StoredPhoton photon;
+  photon.group = fits ? photon_group(surface->object, dot(arriving, surface->geometric) < 0.0f, band, object_count) : NO_PHOTON;
+  photon.position[0] = surface->position.x;
+  photon.position[1] = surface->position.y;
+  photon.position[2] = surface->position.z;
+  photon.xyz[0] = convert_int_sat_rte(quanta.x + dither - 0.5f);
+  photon.xyz[1] = convert_int_sat_rte(quanta.y + dither - 0.5f);
+  photon.xyz[2] = convert_int_sat_rte(quanta.z + dither - 0.5f);
+  photon.padding = 0;
+  *slot = photon;
+  return fits;
+}
+
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. energy counts what photons carry, whatever a smooth
+// receiver makes of it by its shading normals.
+__kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
+                      volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+                      volatile __global long* moments,       // with NEPHROID_MOMENTS: [emitter]
+                      volatile __global long* guide_moments, // ... [light][GUIDE_CELLS]
+                      __global const float* guide,           // ... [light][GUIDE_FLOATS]
+                      float unseen_weight,                   // ... of a stored photon that no pixel sees directly, as if one did
+                      __global StoredPhoton* stored,                                // [photon], with NEPHROID_STORE
+                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint pass, uint first_pass, uint offset,
+                      uint stride, uint count, float film_scale, float energy_scale, float stored_scale)
+{
+  const World world = WORLD;
+  long outcomes[OUTCOME_COUNT] = {0};
+  film = film_of_pass(film, pass, camera.width * camera.height);
+  for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
+    const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
+    if (number >= count) break;
+    const uint photon = offset + stride * number;
+#if NEPHROID_STORE
+    stored[photon].group = NO_PHOTON;
+#endif
+    PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, first_pass, photon);
+    const DeviceEmitter emitter = emitters[start.emitter];
+    DeviceLight light = lights[emitter.light];
+#if NEPHROID_MOMENTS
+    const Guided guided = guide_numbers(guide + emitter.light * GUIDE_FLOATS, &start.emission);
+    long moment = 0;
+#else
+    const Guided guided = {1.0f, 0u};
+#endif
+    const Source source = source_of(&world, emitter.light, start.place, &light);
+    const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
+    if (emission.watts == 0.0f) continue;
+#if NEPHROID_STORE
+    const int part = part_of_cluster(start.wavelength);
+    const Band band = band_of_pass(&world, emitter.cluster, part, seed, pass);
+#else
+    const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
+#endif
+    const float share = band_share(&world, source, &band, emitter.share);
+    const float watts = emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
+    const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, pass, photon);
+#if NEPHROID_STORE
+    if (end.outcome == OUTCOME_DEPOSITED) {
+      const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
+      if (!store_photon(stored + photon, &end.surface, path.direction, band_number(emitter.cluster, part), object_count, xyz, stored_scale,
+                        start.emission.w))
+        ++outcomes[OUTCOME_REFUSED];
+    }
+#endif
+    if (NEPHROID_SPLAT && end.outcome == OUTCOME_DEPOSITED) {
+      const Stretch stretch = stretch_of(&world, &camera, &end, &path, &band);
+      for (int i = 0; i < stretch.count; ++i) {
+        Strand strand;
+        if (!strand_of(&world, &end, &path, source, &band, &stretch, i, start.wavelength, &strand)) continue;
+        const Splat splat = splat_at(&world, &camera, &strand.surface, strand.triangle, path.direction);
+        if (splat.pixel < 0) continue;
+        const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);
+        const float dither = start.emission.w + 0.61803399f * (float)i; // every strand's own
+        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, dither - floor(dither))) ++outcomes[OUTCOME_REFUSED];
+#if NEPHROID_MOMENTS
+        moment += squared(xyz, film_scale);
+#endif
+      }
+    }
+
+#if NEPHROID_MOMENTS
+    if (NEPHROID_STORE && end.outcome == OUTCOME_DEPOSITED && moment == 0) moment = squared(end.xyz * (watts * unseen_weight / PI_F), film_scale);
+    if (moment != 0) {
+      add_exactly(moments + start.emitter, moment);
+      add_exactly(guide_moments + emitter.light * GUIDE_CELLS + guided.cell, moment);
+    }
+#endif
+    count_photon(outcomes, end.outcome, watts * share * energy_scale, end.left);
+  }
+  add_outcomes(energy, outcomes);
+}

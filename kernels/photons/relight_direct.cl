@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// The direct layer for relighting: direct.cl, whose samples go into layers (layers.h). Where nothing is bent, all wavelengths of a lamp went
+// the same way and share one layer; through glass and mirrors each cluster of each lamp has its own. Before the first pass a survey finds
+// the reflectors that each pixel sees.
+#include "kernels/tracing/camera.h"
+#include "kernels/tracing/eye_path.h"
+#include "kernels/photons/layers.h"
+
+// One pixel: which reflector is seen at each of its fixed places, -1 where there is none.
+__kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
+                     __global int* bent)                                                     // [pixel][SURVEY_PLACES * SURVEY_PATHS]
+{
+  const World world = WORLD;
+  const int pixel = (int)get_global_id(0);
+  if (pixel >= camera.width * camera.height) return;
+  for (int place = 0; place < SURVEY_PLACES; ++place) {
+    const float2 jitter = (float2)(place % 2 == 0 ? 0.25f : 0.75f, place < 2 ? 0.25f : 0.75f);
+    const float3 direction = primary_direction(&camera, pixel % camera.width, pixel / camera.width, jitter);
+    const Path first_way = {camera.position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+    const Hit first = next_hit(&world, &first_way);
+    const bool hits = first.primitive != NEPHROID_NO_PRIMITIVE, straight = hits && is_unbent(&world, &camera, &first);
+    unbent[pixel * SURVEY_PLACES + place] = straight ? material_of(&world, (int)object_of_primitive[first.primitive]).reflector : -1;
+    for (int p = 0; p < SURVEY_PATHS; ++p) {
+      const uint number = (uint)(place * SURVEY_PATHS + p);
+      int seen = -1;
+      if (hits && !straight) {
+        const float choice = random4(seed, number, (uint)pixel, 0u, STREAM_SURVEY).x;
+        const Band band = whole_cluster(min((int)(choice * (float)scene.cluster_count), scene.cluster_count - 1));
+        Path path = first_way;
+        Hit hit = first;
+        Surface surface;
+        if (reach_diffuse(&world, &path, &hit, &band, seed, number, (uint)pixel, STREAM_CAMERA, &surface) > 0.0f)
+          seen = material_of(&world, surface.object).reflector;
+      }
+      bent[pixel * SURVEY_PLACES * SURVEY_PATHS + (int)number] = seen;
+    }
+  }
+}
+
+// One sample of every pixel of rows first_row .. first_row + row_count - 1. mean_reflectance: [cluster, then all of them][reflector].
+__kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global const float* mean_reflectance,
+                     __global const float* luminance_share, // [cluster]: of a flat spectrum's
+                     LAYER_FILM_ARGUMENTS(unbent), LAYER_FILM_ARGUMENTS(bent), volatile __global long* energy, DeviceCamera camera,
+                     uint2 seed, uint frame, int first_row, int row_count, float film_scale, float film_limit)
+{
+  const World world = WORLD;
+  const int index = (int)get_global_id(0);
+  if (index >= row_count * camera.width) return;
+  const LayerFilm unbent = LAYER_FILM(unbent, frame), bent = LAYER_FILM(bent, frame);
+  const int column = index % camera.width, row = first_row + index / camera.width, pixel = row * camera.width + column;
+  const float4 jitter = random4(seed, frame, (uint)pixel, 0u, STREAM_CAMERA);
+  const float3 direction = primary_direction(&camera, column, row, jitter.xy);
+  const Path first_way = {camera.position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  const Hit first = next_hit(&world, &first_way);
+  if (first.primitive == NEPHROID_NO_PRIMITIVE) return;
+
+  const bool straight = is_unbent(&world, &camera, &first);
+  const int all = scene.cluster_count;
+  long refused = 0;
+  for (uint i = 0; i < (straight ? 1u : PATHS_THROUGH_GLASS); ++i) {
+    const uint sample = straight ? frame : frame * PATHS_THROUGH_GLASS + i;
+    Band band = whole_cluster(-1);
+    float weight = 1.0f;
+    if (!straight) {
+      band.cluster = choose_cluster(cluster_cdf, all, seed, frame, i, PATHS_THROUGH_GLASS, (uint)pixel, STREAM_CAMERA_CLUSTER);
+      weight = 1.0f / ((cluster_cdf[band.cluster + 1] - cluster_cdf[band.cluster]) * (float)PATHS_THROUGH_GLASS);
+    }
+    Path path = first_way;
+    Hit hit = first;
+    Surface surface;
+    weight *= reach_diffuse(&world, &path, &hit, &band, seed, sample, (uint)pixel, STREAM_CAMERA, &surface);
+    if (weight == 0.0f) continue;
+    if (!straight) weight *= cluster_left(&world.tables, &path.losses, band.cluster);
+    const int reflector = material_of(&world, surface.object).reflector;
+    for (int l = 0; l < scene.light_count; ++l) {
+      const float radiance = weight * irradiance_of(&world, l, &path, &surface, hit.primitive, seed, sample, (uint)pixel) / PI_F;
+      if (radiance == 0.0f) continue;
+      bool taken;
+      if (straight)
+        taken = layer_add(&unbent, pixel, reflector, l, radiance, film_scale, film_limit, mean_reflectance + all * reflector_count, jitter.z);
+      else if (has_cells(&bent, pixel))
+        taken = layer_add(&bent, pixel, reflector, l * all + band.cluster, radiance, film_scale, film_limit,
+                          mean_reflectance + band.cluster * reflector_count, jitter.z);
+      else // the survey saw no glass here: a sliver of it, whose light is taken for unbent
+        taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], film_scale, film_limit,
+                          mean_reflectance + all * reflector_count, jitter.z);
+      if (!taken) ++refused;
+    }
+  }
+  if (refused > 0) add_exactly(energy + OUTCOME_REFUSED, refused);
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// A splat as a streak: the light of a photon's cluster is spread along the way on which its place moves with the wavelength (Elek et al.
+// 2014, "Spectral ray differentials"), each wavelength with its own colour. The 401 lines of a rainbow become one band.
+//
+// The last way of the photon of parameter s is the ray (O, D); that of another wavelength begins at O + x O' and goes along D + x D', x its
+// s less the photon's (differential.h), and is cut with the tangent plane of the receiver exactly: a place on a grazing receiver is
+// anything but linear in x. A wavelength's light lies as a tent over +-1 nm, so that it is interpolated linearly between the 401 and their
+// sum stays what it is.
+#ifndef NEPHROID_STRETCH_H
+#define NEPHROID_STRETCH_H
+
+#include "kernels/photons/photon_path.h"
+#include "kernels/photons/splat.h"
+
+// The most splats that a photon becomes, and the length in pixels below which it stays one.
+#define STRETCH_SPLATS 16
+#define STRETCH_SHORTEST 0.1f
+// The farthest that the last directions of a streak may lie apart for D' to say where they go, in radians. A rainbow of streaks some
+// three times as wide is off by 3 % (docs/notebook/differentials.md). Also where D' is infinite, at the critical angle, a photon is not
+// stretched.
+#define STRETCH_WIDEST 0.01f
+
+// How a photon is splatted: `count` splats, of the light of its whole cluster or of what its band stands for alone. More than one splat:
+// each goes where its own wavelength does.
+typedef struct {
+  int count;
+  bool whole;
+  bool beside; // an end of the streak lies in another triangle
+} Stretch;
+
+// s of the photon itself.
+static inline float stretch_origin(const World* world, const Band* band)
+{
+  return band->wavelength >= 0 ? world->stretch_place[band->wavelength].x : world->stretch_span[band->cluster].x;
+}
+
+// The place of light whose s is larger by x, on the tangent plane of the photon's place. False where there is none.
+static inline bool stretched_place(const Path* path, const Surface* surface, float x, float3* place)
+{
+  const float3 origin = path->origin + x * path->differential.position;
+  const float3 direction = path->direction + x * path->differential.direction;
+  // Everything relative to the photon's place, which is exact: its neighbours are then as exact as their distance.
+  const float before = dot(path->direction, surface->geometric), along = dot(direction, surface->geometric);
+  const float3 to_surface = surface->position - origin;
+  const float distance = dot(to_surface, surface->geometric) / along;
+  *place = surface->position + (distance * direction - to_surface);
+  return along * before > 0.0f && distance > 0.0f && all(isfinite(*place));
+}
+
+// Whether a point of a triangle's plane lies in the triangle; false of an ellipsoid's tangent plane.
+static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float3 position)
+{
+  const uint3 corner = vload3(triangle, geometry->corners);
+  if (is_ellipsoid(corner)) return false;
+  const float3 a = vload3(corner.x, geometry->positions);
+  const float3 e1 = vload3(corner.y, geometry->positions) - a, e2 = vload3(corner.z, geometry->positions) - a;
+  const float3 across = cross(e1, e2), from_a = position - a;
+  const float u = dot(cross(from_a, e2), across), v = dot(cross(e1, from_a), across);
+  return u >= 0.0f && v >= 0.0f && u + v <= dot(across, across);
+}
+
+// The receiver beside the photon's triangle: what a short look back along the normal meets there. False where that is not the same object,
+// facing the same way: the receiver ends, or something stands on it.
+static inline bool surface_beside(const World* world, const PhotonEnd* end, float side, float3 place, Surface* surface, uint* triangle)
+{
+  const float reach = 0.1f * distance(place, end->surface.position) + 8.0f * end->surface.offset;
+  const float3 down = -side * end->surface.geometric;
+  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, place - reach * down, down, 0.0f,
+                              2.0f * reach, NEPHROID_NO_PRIMITIVE);
+  if (hit.primitive == NEPHROID_NO_PRIMITIVE) return false;
+  *surface = surface_at(&world->geometry, world->objects, hit);
+  *triangle = hit.primitive;
+  return surface->object == end->surface.object && dot(surface->geometric, end->surface.geometric) > 0.7f;
+}
+
+// Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels. *beside: set where
+// that is in another triangle.
+static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float x,
+                               float2* film_place, bool* beside)
+{
+  float3 place;
+  if (!stretched_place(path, &end->surface, x, &place)) return false;
+  float depth;
+  *film_place = place_on_film(camera, place, &depth);
+  if (is_in_triangle(&world->geometry, end->triangle, place)) return true;
+  *beside = true;
+  Surface surface;
+  uint triangle;
+  return surface_beside(world, end, dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f, place, &surface, &triangle);
+}
+
+// Tries to stretch a photon from `low` to `high`, its s being 0. False where that leads off the receiver or too far to know where.
+static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float low,
+                                float high, Stretch* stretch)
+{
+  if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
+  float2 first, last;
+  if (!stretch_end(world, camera, end, path, low, &first, &stretch->beside)) return false;
+  if (!stretch_end(world, camera, end, path, high, &last, &stretch->beside)) return false;
+  const float pixels = distance(first, last);
+  if (!(pixels < STRETCH_SHORTEST)) stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
+  return true;
+}
+
+// What becomes of a deposited photon: a streak of its cluster; where that cannot be, with jitter, a streak of its own wavelength; else a
+// point. The first choice rests on where the whole cluster's light goes and not on the photon's wavelength, so it is the same for all of
+// them, and no light is counted twice or lost where a streak would leave the receiver.
+static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, const Band* band)
+{
+#if NEPHROID_DIFFERENTIALS
+  const float origin = stretch_origin(world, band);
+  const float4 span = world->stretch_span[band->cluster];
+  Stretch whole = {1, true, false};
+  if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, &whole)) return whole;
+  if (band->wavelength >= 0) {
+    const float4 place = world->stretch_place[band->wavelength];
+    Stretch own = {1, false, false};
+    if (stretch_over(world, camera, end, path, place.y - origin, place.z - origin, &own)) return own;
+  }
+#endif
+  const Stretch point = {1, false, false};
+  return point;
+}
+
+// Where in its tent a wavelength's light lies, as s less `origin`; u in [0, 1) turns the tent's distribution round, whose lower half is
+// (1 + t)^2 / 2, t in -1..0.
+static inline float place_in_tent(const World* world, int wavelength, float u, float origin)
+{
+  const float t = u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u);
+  const float4 place = world->stretch_place[wavelength];
+  return place.x - origin + (t < 0.0f ? -t * (place.y - place.x) : t * (place.z - place.x));
+}
+
+// u in [0, 1) picks a wavelength of the photon's cluster, as choose_band does, and a place in its tent: *x becomes its s less the photon's.
+static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x)
+{
+  const int first = world->tables.first[photon->cluster], count = world->tables.first[photon->cluster + 1] - first;
+  const int members = world->tables.first[world->scene.cluster_count];
+  __global const float* cdf = world->wavelength_cdf + light * members + first;
+  const int member = choose(cdf, count, u);
+  const float before = chance_before(cdf, member);
+  const Band band = {photon->cluster, world->tables.wavelengths[first + member], 1.0f / (cdf[member] - before)};
+  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f), stretch_origin(world, photon));
+  return band;
+}
+
+// One of the splats of a photon.
+typedef struct {
+  Surface surface;
+  uint triangle;
+  float3 xyz; // as PhotonEnd's
+} Strand;
+
+// The splat number i of stretch->count; u in [0, 1), the same for all of them: they take turns through the cluster's distribution, and with
+// jitter the first is of the photon's own wavelength. False where it does not reach the receiver.
+static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source, const Band* band,
+                             const Stretch* stretch, int i, float u, Strand* strand)
+{
+  strand->surface = end->surface;
+  strand->triangle = end->triangle;
+  strand->xyz = end->xyz;
+#if NEPHROID_DIFFERENTIALS
+  const int reflector = material_of(world, end->surface.object).reflector;
+  if (stretch->count == 1) {
+    const Band whole = whole_cluster(band->cluster);
+    if (stretch->whole && band->wavelength >= 0) strand->xyz = carried_light(world, &path->losses, source, &whole, reflector).xyz;
+    return true;
+  }
+  float turned = u + (float)i / (float)stretch->count;
+  turned = turned < 1.0f ? turned : turned - 1.0f;
+  float x;
+  if (stretch->whole) {
+    const Band wavelength = stretched_band(world, source.light, band, turned, &x);
+    strand->xyz = carried_light(world, &path->losses, source, &wavelength, reflector).xyz;
+  } else
+    x = place_in_tent(world, band->wavelength, turned, stretch_origin(world, band));
+  strand->xyz /= (float)stretch->count;
+  float3 place;
+  if (!stretched_place(path, &end->surface, x, &place)) return false;
+  strand->surface.position = place;
+  if (!stretch->beside || is_in_triangle(&world->geometry, end->triangle, place)) return true;
+  const float side = dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f;
+  return surface_beside(world, end, side, place, &strand->surface, &strand->triangle);
+#else
+  return true;
+#endif
+}
+
+#endif

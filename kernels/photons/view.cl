@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paths from the eye through glass and mirrors to the diffuse surface whose photons they gather (gather.cl).
+#include "kernels/tracing/eye_path.h"
+#include "kernels/photons/pass_band.h"
+#include "kernels/photons/photon_map.h"
+
+// What a path's losses leave of the light that it brings to the eye, as factors of X, Y and Z. A wavelength has its own. Photons of a whole
+// cluster carry a sum over its wavelengths that losses cannot be applied to one by one any more: they get the mean over the cluster,
+// weighted by the lights as the surface reflects them, which is exact where no photon has had losses of its own.
+static inline float3 transmittance(const World* world, const Losses* losses, const Band* band, int reflector)
+{
+  float3 part = (float3)(1.0f);
+#if NEPHROID_ATTENUATORS > 0
+  if (!losses->any) return part;
+#if NEPHROID_JITTER
+  if (band->wavelength >= 0) return part * wavelength_left(&world->tables, losses, band->wavelength);
+#endif
+  const Losses none = no_losses();
+  float3 left = (float3)(0.0f), all = (float3)(0.0f);
+  for (int l = 0; l < world->scene.light_count; ++l) {
+    left += world->lights[l].radiometric * carried_light(world, losses, mean_source(world, l), band, reflector).xyz;
+    all += world->lights[l].radiometric * carried_light(world, &none, mean_source(world, l), band, reflector).xyz;
+  }
+  part.x = all.x > 0.0f ? left.x / all.x : 0.0f;
+  part.y = all.y > 0.0f ? left.y / all.y : 0.0f;
+  part.z = all.z > 0.0f ? left.z / all.z : 0.0f;
+#endif
+  return part;
+}
+
+static inline VisiblePoint nothing_visible(void)
+{
+  VisiblePoint point;
+  point.position = point.normal = point.throughput = (float4)(0.0f);
+  point.group = NO_PHOTON;
+  return point;
+}
+
+// Where a path that has hit `hit` ends in a band, which is of a part of its cluster. weight: of the path.
+static inline VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, int part, float weight, int object_count, uint2 seed,
+                               uint sample, uint pixel)
+{
+  VisiblePoint point = nothing_visible();
+  Surface surface;
+  const float radiance_scale = reach_diffuse(world, &path, &hit, band, seed, sample, pixel, STREAM_VIEW, &surface);
+  if (radiance_scale == 0.0f) return point;
+  const int reflector = material_of(world, surface.object).reflector;
+  point.position = (float4)(surface.position, 0.0f);
+  point.normal = (float4)(surface.geometric, 0.0f);
+  point.throughput = (float4)(weight * radiance_scale * transmittance(world, &path.losses, band, reflector), 0.0f);
+  point.group = photon_group(surface.object, dot(path.direction, surface.geometric) < 0.0f, band_number(band->cluster, part), object_count);
+  return point;
+}
+
+// points: [count], of pixels[first] and those after it; position.w: the film's dither. cluster: of all paths; or -1: each path that
+// meets glass or a mirror first takes one by its chance in cluster_cdf and is worth so much more, and the others see nothing here.
+// sample: how many paths a pixel has had before, place: how many in passes of this half of the film. Each is worth 1 / path_count of a pass.
+__kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points, DeviceCamera camera, uint2 seed,
+                   uint pass, uint sample, uint place, uint path_count, int cluster, int object_count, __global const uint* pixels, uint first, uint count)
+{
+  const World world = WORLD;
+  const uint index = (uint)get_global_id(0);
+  if (index >= count) return;
+  const uint pixel = pixels[first + index];
+  const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
+  const float4 jitter = random4(seed, sample, pixel, 0u, STREAM_VIEW);
+  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  const Hit hit = next_hit(&world, &path);
+  VisiblePoint point = nothing_visible();
+  if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
+    const bool bent = material_of(&world, (int)object_of_primitive[hit.primitive]).type != MATERIAL_DIFFUSE;
+    float weight = 1.0f / (float)path_count;
+    if (cluster < 0 && bent) {
+      cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, pass, place, 0u, pixel, STREAM_VIEW_CLUSTER);
+      weight /= (cluster_cdf[cluster + 1] - cluster_cdf[cluster]);
+    }
+    if (cluster >= 0) {
+      const int part = part_of_cluster(jitter.w);
+      const Band band = band_of_pass(&world, cluster, part, seed, pass);
+      point = see(&world, path, hit, &band, part, weight * (float)NEPHROID_PASS_BANDS, object_count, seed, sample, pixel);
+    }
+  }
+  point.position.w = jitter.z;
+  points[index] = point;
+}
