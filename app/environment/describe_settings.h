@@ -56,10 +56,6 @@ inline void describe(preset::Fields& v, Settings& s)
           "Texels across and down the square map of a sphere, which all have the same solid angle: 360 are as many as 512 x 256.",
           s.resolution, {.bounds = within(8, 1024)});
   v.field("photons", "Photons from each direction.", s.photons, {.bounds = within(1, 1 << 30)});
-  v.field("own_directions",
-          "How many of the strongest narrow lights are baked from just where they shine from, after the first pass; 0: all light "
-          "is put together from 'directions', as in the thesis.",
-          s.own_directions, {.bounds = within(0, 16)});
   v.field("lights", "Directional lights that the environment is cut into.", s.lights, {.bounds = within(6, 4096)});
   v.field("segmentation", "How the environment is cut into lights.", s.segmentation);
   v.field("threshold", "A region with no more than this part of the environment's light is no light of its own.", s.threshold,
@@ -70,7 +66,7 @@ inline void describe(preset::Fields& v, Settings& s)
           s.refine);
   v.field("technique",
           "How caustics on surfaces are put together from spheres. All but the first are there for the comparison of table 3.3: "
-          "they let light come from the object's middle, and have no own directions.",
+          "they let light come from the object's middle.",
           s.technique);
   v.field("cast", "Whether caustics fall on surfaces.", s.cast);
   v.field("extinction", "How much light a medium around the object takes; it makes caustics visible in the air. 0: there is none.",

@@ -42,10 +42,8 @@ public:
   void step() override
   {
     const auto begin = Clock::now();
-    double& seconds = renderer_ && !bakes_own_directions() ? render_seconds_ : bake_seconds_;
-    if (bakes_own_directions())
-      bake_own_directions();
-    else if (renderer_)
+    double& seconds = renderer_ ? render_seconds_ : bake_seconds_;
+    if (renderer_)
       renderer_->step();
     else
       bake();
@@ -55,7 +53,7 @@ public:
   bool finished() const override
   {
     if (stop_.seconds && work_seconds() >= *stop_.seconds) return true;
-    if (render_) return renderer_ && passes() >= (passes_ >= 0 ? passes_ : preset::max_passes);
+    if (render_) return renderer_ && renderer_->passes() >= (passes_ >= 0 ? passes_ : preset::max_passes);
     return bake_ || (stop_.passes && directions_done() >= *stop_.passes);
   }
   bool estimates_error() const override { return false; }
@@ -66,21 +64,20 @@ public:
     p.work_seconds = work_seconds();
     const auto directions = static_cast<std::int64_t>(task_->directions.size());
     if (render_) {
-      p.step = renderer_ ? passes() : 0;
+      p.step = renderer_ ? renderer_->passes() : 0;
       p.steps = passes_;
       p.work = static_cast<std::uint64_t>(renderer_ ? (static_cast<double>(p.step) + renderer_->part()) * width_ * height_ : 0);
       p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
+      const double rendered =
+          renderer_ && passes_ > 0 ? (static_cast<double>(p.step) + renderer_->part()) / static_cast<double>(passes_) : 0;
       // A bake takes about as long as all passes.
-      const double rendered = renderer_ && passes_ > 0 ? rendered_part() : 0;
-      const std::optional<double> baked = baked_part();
-      p.fraction = baked ? 0.5 * *baked + 0.5 * rendered : rendered;
+      p.fraction = baker_ ? 0.5 * baked_part() : bake_seconds_ > 0 ? 0.5 + 0.5 * rendered : rendered;
     } else {
       p.steps = stop_.passes ? std::min<std::int64_t>(directions, *stop_.passes) : directions;
       p.step = directions_done();
       p.work = bake_ ? photons_ : baker_->photons();
       p.units = {.step = "direction", .steps = "directions", .work = "photon", .works = "photons"};
-      const double baked = bake_ ? static_cast<double>(directions) : static_cast<double>(directions_done()) + baker_->part();
-      p.fraction = baked / static_cast<double>(p.steps);
+      p.fraction = baked_part() * static_cast<double>(directions) / static_cast<double>(p.steps);
     }
     p.fraction = finished() ? 1 : std::min(1.0, std::max(p.fraction, stop_.seconds ? work_seconds() / *stop_.seconds : 0));
     return p;
@@ -90,7 +87,7 @@ public:
   {
     const Bake& bake = bake_ ? *bake_ : baker_->bake();
     job::Snapshot snapshot;
-    if (!renderer_ || passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
+    if (!renderer_ || renderer_->passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
     snapshot.picture = renderer_ ? renderer_->picture() : sheet_;
     snapshot.stands_in = render_ && !renderer_;
     if (!renderer_)
@@ -119,13 +116,11 @@ public:
     if (baker_) baker_->state(state);
     if (!renderer_) return;
     double caustics_seconds = caustics_->seconds() - caustics_seconds_before_;
-    bool had_own = own_->complete() || bakes_own_again_;
     state.value(caustics_seconds);
-    state.value(had_own);
     renderer_->state(state);
   }
 
-  /// A bake that was complete is in its file, or is baked again. So are lights' own directions.
+  /// A bake that was complete is in its file, or is baked again.
   void load(ByteSource& source) override
   {
     tracing::State state(source);
@@ -137,18 +132,14 @@ public:
     if (complete && !bake_) return read_to_end(source);
     if (!complete) {
       bake_.reset();
-      own_.reset();
       renderer_.reset();
       if (!baker_) baker_.emplace(*task_, context_);
       baker_->state(state);
     } else if (renderer_) {
-      bool had_own = false;
       double caustics_seconds = 0;
       state.value(caustics_seconds);
-      state.value(had_own);
       renderer_->state(state);
       caustics_seconds_before_ = caustics_->seconds() - caustics_seconds;
-      bakes_own_again_ = had_own && !own_->complete();
     }
     bake_seconds_ = bake_seconds;
     render_seconds_ = render_seconds;
@@ -162,7 +153,11 @@ public:
     const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
     try {
-      if (renderer_) change_picture(preset);
+      const double caustics_seconds = caustics_ ? caustics_->seconds() : 0;
+      if (renderer_ && go_on_with(preset)) { // another picture begins
+        bake_seconds_ = render_seconds_ = 0;
+        caustics_seconds_before_ = caustics_seconds;
+      }
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::bad_input) renderer_.reset(); // it is neither as it was nor as it shall be
       throw;
@@ -175,41 +170,12 @@ public:
   }
 
 private:
-  void change_picture(const preset::Preset& preset)
-  {
-    const double caustics_seconds = caustics_->seconds();
-    if (go_on_with(preset)) { // another picture begins
-      bakes_own_again_ = false;
-      bake_seconds_ = render_seconds_ = 0;
-      caustics_seconds_before_ = caustics_seconds;
-      photons_before_ = photons();
-      first_pass_lacks_own_ = false;
-    }
-    ask_for_own_directions();
-  }
-
   double work_seconds() const { return bake_seconds_ + render_seconds_; }
 
-  /// That were sent from the bake's directions and the lights' own.
-  std::uint64_t photons() const { return (baker_ ? baker_->photons() : photons_) + (own_ ? own_->photons() : 0); }
-
-  /// 0..1 of what this picture has to have baked; nothing where all was there.
-  std::optional<double> baked_part() const
+  /// 0..1
+  double baked_part() const
   {
-    const std::uint64_t sent = photons() - photons_before_;
-    const std::uint64_t most_own = static_cast<std::uint64_t>(own_directions(settings(preset_))) * OwnDirections::photons_each(*task_);
-    const std::uint64_t left = (baker_ ? task_->directions.size() * std::uint64_t{task_->photons} - baker_->photons() : 0) +
-                               (own_ ? own_->photons_left() : most_own);
-    if (sent + left == 0) return std::nullopt;
-    return static_cast<double>(sent) / static_cast<double>(sent + left);
-  }
-
-  /// 0..1 of all passes, with the one that is thrown away.
-  double rendered_part() const
-  {
-    const int thrown = first_pass_lacks_own_ && (own_->complete() || bakes_own_again_) ? 1 : 0;
-    return (static_cast<double>(renderer_->passes() + thrown) + renderer_->part()) /
-           static_cast<double>(passes_ + (first_pass_lacks_own_ ? 1 : 0));
+    return bake_ ? 1.0 : (static_cast<double>(directions_done()) + baker_->part()) / static_cast<double>(task_->directions.size());
   }
 
   void bake()
@@ -223,43 +189,13 @@ private:
     begin_rendering();
   }
 
-  std::vector<glm::dvec3> strong_directions() const { return renderer_->strong_directions(own_directions(settings(shown_))); }
-
-  /// After a first pass, which is thrown away then; before the next one of a run that had them.
-  bool bakes_own_directions() const { return renderer_ && (renderer_->passes() > 0 || bakes_own_again_) && !own_->complete(); }
-
-  void bake_own_directions()
-  {
-    own_->step();
-    if (own_->complete()) take_own_directions();
-  }
-
-  void take_own_directions()
-  {
-    caustics_->set_own(own_->bake());
-    renderer_->take_own_directions(bakes_own_again_);
-    bakes_own_again_ = false;
-  }
-
-  /// With all directions baked that are to be.
-  std::int64_t passes() const { return own_->complete() || bakes_own_again_ ? renderer_->passes() : 0; }
-
   void begin_rendering()
   {
     if (!render_) return;
-    caustics_.emplace(*bake_, context_, own_directions(settings(preset_)), task_->own_radii, settings(preset_).technique);
-    own_.emplace(*task_, context_);
+    caustics_.emplace(*bake_, context_, settings(preset_).technique);
     renderer_.emplace(*render_, *caustics_, preset_.white, preset_.seed, context_);
     shown_ = loaded_;
     go_on_with(preset_);
-    ask_for_own_directions();
-  }
-
-  void ask_for_own_directions()
-  {
-    own_->want(strong_directions());
-    first_pass_lacks_own_ |= !own_->complete();
-    if (own_->complete() && caustics_->own_directions() != own_->bake().directions) take_own_directions();
   }
 
   bool render_anew(const preset::Preset& preset)
@@ -371,13 +307,9 @@ private:
   std::optional<Bake> bake_;   ///< when that is done
   std::optional<Caustics> caustics_;
   double caustics_seconds_before_ = 0; ///< of Caustics::seconds(), what was before the newest preset
-  std::optional<OwnDirections> own_;   ///< with the renderer
-  bool bakes_own_again_ = false;       ///< the passes that are done had own directions, which are baked again
-  bool first_pass_lacks_own_ = false;  ///< this picture's first pass is without its own directions, and is thrown away
   std::optional<Renderer> renderer_;
   bool from_file_ = false;
-  std::uint64_t photons_ = 0;        ///< that the finished bake took here
-  std::uint64_t photons_before_ = 0; ///< of photons(), those for earlier pictures
+  std::uint64_t photons_ = 0; ///< that the finished bake took here
   double bake_seconds_ = 0, render_seconds_ = 0;
   std::shared_ptr<const job::Picture> sheet_; ///< of the directions in spheres_
   std::vector<job::NamedPicture> spheres_;    ///< of each direction that is shown and baked

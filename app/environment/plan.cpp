@@ -69,11 +69,6 @@ std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTa
   passes.push_back(
       {"volume", render->has_medium,
        render->has_medium ? "caustics in the air: 128 steps a path" : "there is no medium: environment.extinction or albedo is 0"});
-  passes.push_back({"own directions", own_directions(s) > 0,
-                    s.technique != Technique::eight_sets ? fmt::format("environment.technique {} has none", preset::word(s.technique))
-                    : own_directions(s) == 0
-                        ? std::string("environment.own_directions is 0")
-                        : fmt::format("the {} strongest narrow lights at most are baked from where they are", own_directions(s))});
   passes.push_back({"colours of the view", render->coloured,
                     render->coloured ? "glass is looked through in three colours" : "all wavelengths go the same way and lose alike"});
   return passes;
@@ -83,7 +78,7 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
 {
   const scene::Scene& s = *render.scene;
   const std::uint64_t sky = s.environment ? tracing::bytes_of(s.environment->rgb) : 0;
-  return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), own_directions(settings), bake.own_radii, settings.technique)},
+  return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), settings.technique)},
           {"whole scene", tracing::tree_bytes(*render.bvh) + tracing::bytes_of(s.geometry.triangles) +
                               tracing::bytes_of(s.geometry.positions) + tracing::bytes_of(s.geometry.normals)},
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},

@@ -22,7 +22,6 @@ struct Settings {
   double reach = 4;                   ///< radius of the largest, in largest sides of the box about the object
   int resolution = 360;               ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
   int photons = 1 << 18;              ///< that are sent from each direction
-  int own_directions = 4;             ///< of the strongest lights, baked too while their caustics are shown
   int lights = 24;                    ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
@@ -36,9 +35,6 @@ struct Settings {
   double anisotropy = 0;                  ///< henyey_greenstein: the mean cosine, -.95 to .95
   bool operator==(const Settings&) const = default;
 };
-
-/// How many it bakes: the thesis' techniques know none.
-inline int own_directions(const Settings& s) { return s.technique == Technique::eight_sets ? s.own_directions : 0; }
 
 /// The settings of this engine, as a preset knows them.
 const preset::SettingsType& settings_type();

@@ -16,8 +16,9 @@ __kernel void cast(__global const ushort* stored, __global const ushort* ways, _
   float3 caustic = (float3)(0.0f);
   if (distance < INFINITY) {
     const Maps maps = {stored, ways, way_of};
-    const Shells shells = shells_at(radii, &spheres, distance);
-    caustic = held(radii, distance) * caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size), &shells, normals[texel].xyz);
+    const float beyond = fmax(1.0f - radii[spheres.count - 1] / distance, 0.0f);
+    caustic = held(radii, distance) * caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size),
+                                                      shell_at(radii, spheres.count, distance), beyond, normals[texel].xyz);
   }
   vstore3(caustic, (size_t)texel, caustics);
 }
@@ -32,12 +33,12 @@ __kernel void compile_air(__global const ushort* stored, __global const ushort* 
   if (item >= count) return;
   const uint texels = (uint)((side + 2) * (side + 2));
   const Maps maps = {stored, ways, way_of};
-  const Shells shells = shells_at(radii, &spheres, radii[item / texels]);
+  const Shell shell = shell_at(radii, spheres.count, radii[item / texels]);
   const float3 d = sphere_direction(texel_of_stored((int)(item % texels), side), side);
   const float3 direction = d.x * object_x.xyz + d.y * object_y.xyz + d.z * object_z.xyz;
   AirLight light = {(float3)(0.0f), (float3)(0.0f)};
   for (int i = 0; i < eights; ++i)
-    for (int k = 0; k < 8; ++k) add_air(&light, &maps, &spheres, sets + i, k, direction, shells.of[sets[i].own]);
+    for (int k = 0; k < 8; ++k) add_air(&light, &maps, &spheres, sets + i, k, direction, shell);
   vstore3(light.rgb, 2 * (size_t)item, air);
   vstore3(light.way, 2 * (size_t)item + 1, air);
 }

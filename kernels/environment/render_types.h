@@ -30,16 +30,14 @@ typedef struct {
   float to_bake[9][8]; // rows of the rotation from the scene into the coordinates of that direction's spheres
   float flux[3][8];    // linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
   ulong first[8];      // of the direction's texels among all that are stored
-  int own;             // 1: all are lights' own directions, with their spheres; 0: none is
-  int padding[7];
 } DeviceEightSets;
 
 // The radii of the spheres, and how they are stored.
 typedef struct {
-  int count;      // of spheres of a baked direction
-  int side;       // texels across and down a sphere's map; it is stored with a border of one more texel all around
-  float scale;    // from a stored number to E r^2 in scene units squared, for light of 1 W/m^2
-  int own_count;  // of spheres of a light's own direction, whose radii follow the others
+  int count;   // of spheres of a baked direction
+  int side;    // texels across and down a sphere's map; it is stored with a border of one more texel all around
+  float scale; // from a stored number to E r^2 in scene units squared, for light of 1 W/m^2
+  int padding;
 } DeviceSpheres;
 
 // A pixel whose first surface is glass has one of what it reflects and one of what it lets through, or three of that where glass parts
@@ -52,7 +50,7 @@ typedef struct {
 } DeviceEnd;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceEightSets) == 480 && sizeof(DeviceSpheres) == 16 && sizeof(DeviceEnd) == 64);
+static_assert(sizeof(DeviceEightSets) == 448 && sizeof(DeviceSpheres) == 16 && sizeof(DeviceEnd) == 64);
 } // namespace nephroid::shared
 #endif
 

@@ -26,21 +26,6 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
   return shell;
 }
 
-// The same among both kinds of spheres.
-typedef struct {
-  Shell of[2]; // [DeviceEightSets::own]
-  float beyond; // of eight_factors: 1 less the largest sphere's radius over the distance, at least 0
-} Shells;
-
-static inline Shells shells_at(__global const float* radii, const DeviceSpheres* spheres, float distance)
-{
-  Shells shells;
-  shells.of[0] = shells.of[1] = shell_at(radii, spheres->count, distance);
-  shells.beyond = fmax(1.0f - radii[spheres->count - 1] / distance, 0.0f);
-  if (spheres->own_count > 0) shells.of[1] = shell_at(radii + spheres->count, spheres->own_count, distance);
-  return shells;
-}
-
 // Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2 goes to 0.
 static inline float held(__global const float* radii, float distance)
 {
@@ -158,17 +143,17 @@ static inline float8 eight_factors(const Maps* maps, __global const DeviceEightS
   return along + beyond * (radial - along);
 }
 
-// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on the object's side.
+// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on the object's side. beyond:
+// of eight_factors.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* sets, int eights,
-                                     float3 direction, const Shells* shells, float3 normal)
+                                     float3 direction, Shell shell, float beyond, float3 normal)
 {
   const int stride = spheres->side + 2;
   const size_t row_items = (size_t)stride * NEPHROID_CHANNELS, map_texels = (size_t)(stride * stride);
+  const size_t lower = (size_t)shell.lower * map_texels, upper = (size_t)shell.upper * map_texels;
   float8 red = 0.0f, green = 0.0f, blue = 0.0f;
   for (int i = 0; i < eights; ++i) {
     __global const DeviceEightSets* eight = sets + i;
-    const Shell shell = shells->of[eight->own];
-    const size_t lower = (size_t)shell.lower * map_texels, upper = (size_t)shell.upper * map_texels;
     const float8 x = row_of_eight(eight, 0, direction), y = row_of_eight(eight, 1, direction), z = row_of_eight(eight, 2, direction);
     float8 columns, rows;
     eight_stored_places(x, y, z, (float)spheres->side, &columns, &rows);
@@ -188,7 +173,7 @@ static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* sphe
                                (float8)(shell.part));
     const int8 nearest = convert_int8(rows + 0.5f) * stride + convert_int8(columns + 0.5f);
     const float8 factors = eight_factors(maps, eight, shell.part > 0.5f ? upper : lower, nearest, x, y, z, row_of_eight(eight, 0, normal),
-                                         row_of_eight(eight, 1, normal), row_of_eight(eight, 2, normal), shells->beyond);
+                                         row_of_eight(eight, 1, normal), row_of_eight(eight, 2, normal), beyond);
     red += factors * vload8(0, eight->flux[0]) * caustics.channels[0];
     green += factors * vload8(0, eight->flux[1]) * caustics.channels[NEPHROID_CHANNELS == 3 ? 1 : 0];
     blue += factors * vload8(0, eight->flux[2]) * caustics.channels[NEPHROID_CHANNELS == 3 ? 2 : 0];

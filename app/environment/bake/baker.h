@@ -9,7 +9,6 @@
 #include "tracing/world.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace nephroid::environment {
@@ -22,8 +21,8 @@ struct BakeTask {
   Caster caster;
   scene::Bvh bvh;
   tracing::SceneTables tables;
-  bool coloured = false;                ///< the object bends or takes away one wavelength otherwise than another
-  std::vector<double> radii, own_radii; ///< of the spheres, and of those of a light's own direction, which are more
+  bool coloured = false;     ///< the object bends or takes away one wavelength otherwise than another
+  std::vector<double> radii; ///< of the spheres
   std::vector<glm::dvec3> directions;
   int resolution = 0;
   std::uint32_t photons = 0; ///< from each direction
@@ -79,38 +78,6 @@ private:
   tracing::StepSize photons_a_step_{8192};
   std::uint32_t sent_ = 0; ///< of the direction in hand
   Bake bake_;
-};
-
-/// Spheres of further directions, baked while a scene is shown: where its strongest lights come from (strong_directions in light/).
-class OwnDirections {
-public:
-  /// From each direction. task: of the bake that they are added to.
-  static std::uint32_t photons_each(const BakeTask& task);
-
-  /// task: as above.
-  OwnDirections(const BakeTask& task, const compute::Context& context);
-
-  /// Of these directions the spheres that are there are kept, and others are dropped. directions: unit, in the bake's coordinates.
-  void want(const std::vector<glm::dvec3>& directions);
-  bool complete() const { return bake_.baked.size() == bake_.directions.size(); }
-  /// While not complete: some photons. Throws failed where the device has not enough memory.
-  void step();
-  /// Those wanted, as far as they are there.
-  const Bake& bake() const { return bake_; }
-  /// Sent so far, those of dropped directions too.
-  std::uint64_t photons() const { return sent_ + (baker_ ? baker_->photons() : 0); }
-  /// To be sent until it is complete.
-  std::uint64_t photons_left() const
-  {
-    return (bake_.directions.size() - bake_.baked.size()) * std::uint64_t{task_.photons} - (baker_ ? baker_->photons() : 0);
-  }
-
-private:
-  compute::Context context_;
-  BakeTask task_; ///< of the one direction in hand
-  Bake bake_;
-  std::optional<Baker> baker_; ///< of that direction
-  std::uint64_t sent_ = 0;     ///< by bakers before it
 };
 
 } // namespace nephroid::environment

@@ -83,10 +83,10 @@ std::vector<std::uint16_t> stored_ways(const Bake& bake)
   return stored_form(bake.ways, bake.map.side, 1, [](std::uint16_t way) { return way; });
 }
 
-/// Eight after eight. first_texel: of a direction among all that are stored. own: whether they are lights' own directions.
-template <class FirstTexel>
-void add_eights(std::vector<shared::DeviceEightSets>& eights, std::span<const TurnedSet> sets, const FirstTexel& first_texel, bool own)
+/// Eight after eight. direction_texels: of all that are stored of one direction.
+std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& sets, std::size_t direction_texels)
 {
+  std::vector<shared::DeviceEightSets> eights;
   for (std::size_t i = 0; i < (sets.size() + 7) / 8 * 8; ++i) {
     const bool missing = i >= sets.size();
     const TurnedSet& set = missing ? sets.back() : sets[i];
@@ -95,9 +95,9 @@ void add_eights(std::vector<shared::DeviceEightSets>& eights, std::span<const Tu
     shared::DeviceEightSets& eight = eights.back();
     for (int k = 0; k < 9; ++k) eight.to_bake[k][lane] = static_cast<float>(set.to_bake[k % 3][k / 3]); // glm has columns
     for (int c = 0; c < 3; ++c) eight.flux[c][lane] = missing ? 0.0F : static_cast<float>(set.flux[c]);
-    eight.first[lane] = first_texel(set.direction);
-    eight.own = own ? 1 : 0;
+    eight.first[lane] = static_cast<std::size_t>(set.direction) * direction_texels;
   }
+  return eights;
 }
 
 constexpr std::size_t items_per_group = 32;
@@ -108,57 +108,34 @@ bool has_launches(Technique t) { return t != Technique::direct && t != Technique
 
 } // namespace
 
-Caustics::Caustics(const Bake& bake, const compute::Context& context, int own, const std::vector<double>& own_radii, Technique technique)
-    : context_(context), directions_(static_cast<int>(bake.directions.size())),
-      channels_(static_cast<std::size_t>(bake.channels)), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
-                                                                   static_cast<float>(Bake::unit * bake.size * bake.size),
-                                                                   static_cast<int>(own_radii.size())},
-      stored_(context, "caustic spheres", stored_texels(bake.map.side) * maps(own) * channels_),
-      ways_(context, "ways through spheres", stored_texels(bake.map.side) * maps(own)),
-      way_of_(compute::Buffer(context, "ways", all_ways())), radii_(context, "radii", bake.radii.size() + own_radii.size()),
-      sets_(context, "turned sets", 1)
+Caustics::Caustics(const Bake& bake, const compute::Context& context, Technique technique)
+    : context_(context),
+      directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
+                                                                      static_cast<float>(Bake::unit * bake.size * bake.size), 0},
+      way_of_(compute::Buffer(context, "ways", all_ways())),
+      radii_(compute::Buffer(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))), sets_(context, "turned sets", 1)
 {
+  const auto channels = static_cast<std::size_t>(bake.channels);
   {
     const std::vector<std::uint16_t> light = stored_light(bake);
-    stored_.write(light);
-    if (technique != Technique::eight_sets) one_by_one_.emplace(technique, light, bake.directions.size(), channels_, context);
+    stored_ = compute::Buffer(context, "caustic spheres", light);
+    if (technique != Technique::eight_sets) one_by_one_.emplace(technique, light, bake.directions.size(), channels, context);
   }
-  ways_.write(stored_ways(bake));
-  radii_.write(std::vector<float>(bake.radii.begin(), bake.radii.end()));
-  radii_.write(std::vector<float>(own_radii.begin(), own_radii.end()), bake.radii.size());
+  ways_ = compute::Buffer(context, "ways through spheres", stored_ways(bake));
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
   cast_ = program.kernel("cast");
   compile_air_ = program.kernel("compile_air");
 }
 
-std::uint64_t Caustics::bytes(const Bake& bake, int own, const std::vector<double>& own_radii, Technique technique)
+std::uint64_t Caustics::bytes(const Bake& bake, Technique technique)
 {
-  const std::size_t maps = bake.directions.size() * bake.radii.size() + static_cast<std::size_t>(own) * own_radii.size();
-  const std::size_t texels = stored_texels(bake.map.side), channels = static_cast<std::size_t>(bake.channels);
-  return sizeof(std::uint16_t) * maps * texels * (channels + 1) +
-         OneByOne::bytes(technique, texels * bake.radii.size(), bake.directions.size(), channels);
+  const std::size_t texels = stored_texels(bake.map.side) * bake.radii.size(), directions = bake.directions.size(),
+                    channels = static_cast<std::size_t>(bake.channels);
+  return sizeof(std::uint16_t) * directions * texels * (channels + 1) + OneByOne::bytes(technique, texels, directions, channels);
 }
 
 std::uint64_t Caustics::air_bytes(const Bake& bake, int side) { return 6 * sizeof(float) * stored_texels(side) * bake.radii.size(); }
-
-void Caustics::set_own(const Bake& own)
-{
-  own_ = own.directions;
-  const std::size_t first = stored_texels(spheres_.side) * maps(0);
-  stored_.write(stored_light(own), first * channels_);
-  ways_.write(stored_ways(own), first);
-}
-
-void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
-{
-  timed([&] { upload(turned_sets(lights, rotation, directions_, own_), rotation); });
-}
-
-void Caustics::draw_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, std::uint32_t pass)
-{
-  timed([&] { upload(drawn_sets(lights, rotation, directions_, pass, own_), rotation); });
-}
 
 template <class Work>
 void Caustics::timed(const Work& work)
@@ -168,30 +145,20 @@ void Caustics::timed(const Work& work)
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-std::size_t Caustics::maps(int own) const
+void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation)
 {
-  return static_cast<std::size_t>(directions_) * static_cast<std::size_t>(spheres_.count) +
-         static_cast<std::size_t>(own) * static_cast<std::size_t>(spheres_.own_count);
-}
-
-void Caustics::upload(std::vector<TurnedSet> sets, const glm::dmat3& rotation)
-{
-  const auto first_texel = [&](int direction) {
-    const int own = direction - directions_;
-    const std::size_t map = own >= 0 ? maps(own) : static_cast<std::size_t>(direction) * static_cast<std::size_t>(spheres_.count);
-    return map * stored_texels(spheres_.side);
-  };
-  const auto own = std::stable_partition(sets.begin(), sets.end(), [&](const TurnedSet& set) { return set.direction < directions_; });
-  std::vector<shared::DeviceEightSets> eights;
-  add_eights(eights, {sets.begin(), own}, first_texel, false);
-  add_eights(eights, {own, sets.end()}, first_texel, true);
-  if (eights.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
-  if (!eights.empty()) sets_.write(eights);
-  used_eights_ = static_cast<int>(eights.size());
-  air_.object_x = tracing::to_float4(rotation[0]);
-  air_.object_y = tracing::to_float4(rotation[1]);
-  air_.object_z = tracing::to_float4(rotation[2]);
-  if (one_by_one_) one_by_one_->set_lights(turned(), sets);
+  timed([&] {
+    const std::vector<TurnedSet> sets = turned_sets(lights, rotation, directions_);
+    const std::vector<shared::DeviceEightSets> eights =
+        eights_of(sets, stored_texels(spheres_.side) * static_cast<std::size_t>(spheres_.count));
+    if (eights.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
+    if (!eights.empty()) sets_.write(eights);
+    used_eights_ = static_cast<int>(eights.size());
+    air_.object_x = tracing::to_float4(rotation[0]);
+    air_.object_y = tracing::to_float4(rotation[1]);
+    air_.object_z = tracing::to_float4(rotation[2]);
+    if (one_by_one_) one_by_one_->set_lights(turned(), sets);
+  });
 }
 
 TurnedSpheres Caustics::turned() const { return {stored_, radii_, sets_, spheres_, air_.object_x, air_.object_y, air_.object_z}; }

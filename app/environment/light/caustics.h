@@ -36,7 +36,7 @@ struct CastTexels {
 struct TurnedSpheres {
   const compute::Buffer<std::uint16_t>& stored;
   const compute::Buffer<float>& radii;
-  const compute::Buffer<shared::DeviceEightSets>& sets; ///< none of lights' own directions
+  const compute::Buffer<shared::DeviceEightSets>& sets;
   shared::DeviceSpheres spheres;
   shared::float4 object_x, object_y, object_z; ///< the object's axes in the scene
 };
@@ -75,28 +75,20 @@ private:
 
 class Caustics {
 public:
-  /// own: how many directions set_own() has at most; 0 by the thesis' techniques. own_radii: of their spheres. Throws failed where the
-  /// device has not enough memory.
-  Caustics(const Bake& bake, const compute::Context& context, int own = 0, const std::vector<double>& own_radii = {},
-           Technique technique = Technique::eight_sets);
+  /// Throws failed where the device has not enough memory.
+  Caustics(const Bake& bake, const compute::Context& context, Technique technique = Technique::eight_sets);
 
-  /// On a device: of the bake with so many lights' own directions, whose spheres have these radii.
-  static std::uint64_t bytes(const Bake& bake, int own, const std::vector<double>& own_radii, Technique technique);
+  /// On a device.
+  static std::uint64_t bytes(const Bake& bake, Technique technique);
   /// Of what compile_air() makes.
   static std::uint64_t air_bytes(const Bake& bake, int side);
 
-  /// What stands for lights that come from nearly there, from the next set_lights() on, in place of those it had. own: of the same object
-  /// and resolution as the bake.
-  void set_own(const Bake& own);
-
   /// rotation: from the bake's coordinates to the scene's.
   void set_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation);
-  /// The same by drawn_sets, with a quarter of the work.
-  void draw_lights(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, std::uint32_t pass);
 
   void cast(const CastTexels& texels);
 
-  /// Of all calls of set_lights, draw_lights and cast so far.
+  /// Of all calls of set_lights and cast so far.
   double seconds() const { return seconds_; }
 
   /// Adds up the light in the air of all sets into one set of spheres (Algorithm 3.5), whose maps have side x side texels.
@@ -110,21 +102,15 @@ public:
   };
   const Air& air() const { return air_; }
   const compute::Buffer<float>& radii() const { return radii_; }
-  int directions() const { return directions_; } ///< of the bake
-  const std::vector<glm::dvec3>& own_directions() const { return own_; }
   int side() const { return spheres_.side; } ///< of the bake's maps
 
 private:
   template <class Work>
   void timed(const Work& work);
-  void upload(std::vector<TurnedSet> sets, const glm::dmat3& rotation);
   TurnedSpheres turned() const;
-  std::size_t maps(int own) const; ///< of all baked directions and so many of the lights' own
 
   compute::Context context_;
-  int directions_;
-  std::size_t channels_;
-  std::vector<glm::dvec3> own_; ///< baked for lights of their own, in the bake's coordinates
+  int directions_; ///< of the bake
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint16_t> stored_, ways_;
   compute::Buffer<shared::float4> way_of_; ///< [number of Bake::way_map]

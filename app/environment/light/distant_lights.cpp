@@ -4,7 +4,6 @@
 
 #include "environment/bake/bake.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>
@@ -24,7 +23,7 @@ int cells_of(int count)
 std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& lights, double rotate_deg)
 {
   std::vector<DistantLight> distant;
-  for (const VisibleLight& light : lights) distant.push_back({-turned(light.direction, rotate_deg), light.flux, light.spread_deg});
+  for (const VisibleLight& light : lights) distant.push_back({-turned(light.direction, rotate_deg), light.flux});
   return distant;
 }
 
@@ -80,81 +79,23 @@ std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count)
   return near;
 }
 
-double degrees_between(int count) { return 90.0 / cells_of(count); }
-
-std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count, const std::vector<glm::dvec3>& own)
-{
-  std::vector<NearDirection> near = near_directions(travel, count);
-  const glm::dvec3 way = glm::normalize(travel);
-  const auto nearest = std::ranges::min_element(own, {}, [&](const glm::dvec3& direction) { return glm::distance(direction, way); });
-  if (nearest == own.end()) return near;
-  const double degrees = glm::degrees(2 * std::asin(std::min(1.0, glm::distance(*nearest, way) / 2)));
-  const double weight = 1 - glm::smoothstep(0.125, 0.25, degrees / degrees_between(count));
-  if (weight <= 0) return near;
-  for (NearDirection& n : near) n.weight *= 1 - weight;
-  std::erase_if(near, [](const NearDirection& n) { return n.weight <= 0; });
-  near.push_back({count + static_cast<int>(nearest - own.begin()), weight});
-  return near;
-}
-
-std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, int most)
-{
-  const auto strength = [](const DistantLight& light) { return light.irradiance.x + light.irradiance.y + light.irradiance.z; };
-  std::vector<DistantLight> strong;
-  double all = 0;
-  for (const DistantLight& light : lights) {
-    all += strength(light);
-    if (light.spread_deg < degrees_between(count) / 2) strong.push_back(light);
-  }
-  std::ranges::stable_sort(strong, std::ranges::greater{}, strength);
-  std::vector<glm::dvec3> directions;
-  for (const DistantLight& light : strong) {
-    const glm::dvec3 travel = glm::transpose(rotation) * light.direction;
-    const bool is_there = std::ranges::any_of(directions, [&](const glm::dvec3& other) { return glm::distance(other, travel) < 0.004; });
-    if (directions.size() < static_cast<std::size_t>(most) && strength(light) > 0.05 * all && !is_there) directions.push_back(travel);
-  }
-  return directions;
-}
-
 // The real part of glm's quaternion is rounded off where the vectors are nearly opposite: its length is wrong there, but its axis is right.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to) { return glm::mat3_cast(glm::normalize(glm::rotation(from, to))); }
 
-/// The sets of each light that is not black, of those that choose(number of the light, its near directions) takes.
-template <class Choose>
-std::vector<TurnedSet> chosen_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                   const std::vector<glm::dvec3>& own, const Choose& choose)
+std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count)
 {
   const glm::dmat3 to_object = glm::transpose(rotation);
-  std::vector<glm::dvec3> baked = light_directions(count);
-  baked.insert(baked.end(), own.begin(), own.end());
+  const std::vector<glm::dvec3> baked = light_directions(count);
   std::vector<TurnedSet> sets;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].irradiance == glm::dvec3(0)) continue;
     const glm::dvec3 travel = to_object * lights[i].direction;
-    for (const NearDirection& near : choose(i, near_directions(travel, count, own))) {
+    for (const NearDirection& near : near_directions(travel, count)) {
       const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked[static_cast<std::size_t>(near.direction)], travel)) * to_object;
       sets.push_back({to_bake, near.weight * lights[i].irradiance, near.direction, i});
     }
   }
   return sets;
-}
-
-std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                   const std::vector<glm::dvec3>& own)
-{
-  return chosen_sets(lights, rotation, count, own, [](std::size_t, const std::vector<NearDirection>& near) { return near; });
-}
-
-std::vector<TurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, std::uint32_t pass,
-                                  const std::vector<glm::dvec3>& own)
-{
-  return chosen_sets(lights, rotation, count, own, [&](std::size_t light, const std::vector<NearDirection>& near) {
-    // The Kronecker sequence of sqrt 2, which has nothing to do with the golden ratio that lights are drawn by.
-    double left = std::fmod(0.4142135624 * pass + 0.7548776662 * static_cast<double>(light), 1.0);
-    std::size_t chosen = 0;
-    while (chosen + 1 < near.size() && left >= near[chosen].weight) left -= near[chosen++].weight;
-    return std::array{NearDirection{near[chosen].direction, 1}};
-  });
 }
 
 } // namespace nephroid::environment

@@ -17,7 +17,6 @@ namespace nephroid::environment {
 struct DistantLight {
   glm::dvec3 direction{0, -1, 0}; ///< unit, the way the light goes, in the scene
   glm::dvec3 irradiance{0};       ///< on a plane that faces it: linear sRGB, W/m^2 of Y
-  double spread_deg = 0;          ///< how wide it is: as Region::spread_deg
 };
 
 /// Of each light of the environment, in their order.
@@ -38,7 +37,7 @@ struct TurnedSet {
 };
 
 struct NearDirection {
-  int direction = 0; ///< of light_directions(count), then of the lights' own
+  int direction = 0; ///< of light_directions(count)
   double weight = 0; ///< above 0; all together 1
 };
 
@@ -47,27 +46,10 @@ struct NearDirection {
 /// 0.
 std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count);
 
-/// The same with directions that were baked for lights of their own, which the nearest of them stands for alone where it is within an
-/// eighth of the way between baked directions (45 degrees of 26, 22.5 of 98); up to a quarter of that it has less and less of the weight.
-std::vector<NearDirection> near_directions(const glm::dvec3& travel, int count, const std::vector<glm::dvec3>& own);
-
-/// Between neighbours of light_directions(count) in the middle of a face of the cube.
-double degrees_between(int count);
-
-/// Where lights go that are worth a direction of their own, the strongest first, at most `most`: those that are narrower than half of the
-/// way between baked directions and have a twentieth of all light. Of lights within a quarter of a degree one. In the bake's coordinates.
-std::vector<glm::dvec3> strong_directions(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, int most);
-
 /// The shortest turn from one unit vector to another; half a turn about some axis across where they are opposite.
 glm::dmat3 shortest_turn(const glm::dvec3& from, const glm::dvec3& to);
 
-/// The sets of all lights. rotation: from the bake's coordinates to the scene's. count: of baked directions. own: further ones, unit, in
-/// the bake's coordinates. Black lights have none.
-std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count,
-                                   const std::vector<glm::dvec3>& own = {});
-
-/// The same with one set a light, which stands for all of its near directions: each has its turn in as many passes as its weight asks for.
-std::vector<TurnedSet> drawn_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count, std::uint32_t pass,
-                                  const std::vector<glm::dvec3>& own = {});
+/// The sets of all lights. rotation: from the bake's coordinates to the scene's. count: of baked directions. Black lights have none.
+std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, const glm::dmat3& rotation, int count);
 
 } // namespace nephroid::environment

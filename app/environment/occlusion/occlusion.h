@@ -40,7 +40,6 @@ std::vector<glm::dvec3> surface_points(const scene::Scene& scene, const std::vec
 struct VisibleLight {
   glm::dvec3 flux{0};      ///< as Region::flux, which it is where nothing stands before the light
   glm::dvec3 direction{0}; ///< as Region::direction: the mean of what is seen, as the cube has it. Where nothing is seen, the region's own
-  double spread_deg = 0;   ///< as Region::spread_deg
 };
 
 /// All lights of a segmentation as they are where nothing is in the way.
@@ -72,16 +71,9 @@ public:
   /// From its middle alone an edge before the sun would hide all at once. rotate_deg: how the map is turned.
   std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from);
 
-  /// A part of each light instead of all of it: the `pass`th of a sequence over the cells that visible_lights() found seen, with as much
-  /// light as all that is seen. The mean over passes goes towards that light, each part from its own direction. A cell that becomes hidden
-  /// changes the passes that would draw it, and no others: pictures of an occluder that moves do not flicker.
-  std::vector<VisibleLight> drawn_lights(std::uint32_t pass) const;
-
 private:
   std::vector<VisibleLight> whole_;
   std::vector<LightSample> samples_;
-  std::vector<std::uint8_t> is_seen_;    ///< of each sample, whether nothing stands before it
-  std::vector<std::size_t> seen_counts_; ///< of each light, how many of its samples
   compute::Buffer<shared::float4> directions_;
   Sight sight_;
 };

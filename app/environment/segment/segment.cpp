@@ -95,8 +95,7 @@ private:
     const CubePoint centre = m.z > 0 ? CubePoint{piece.face, m.x / m.z, m.y / m.z}
                                      : CubePoint{piece.face, (border(r.x0, cube_.size) + border(r.x1, cube_.size)) / 2,
                                                  (border(r.y0, cube_.size) + border(r.y1, cube_.size)) / 2};
-    const double spread = m.z > 0 ? std::acos(std::min(1.0, glm::length(m) / piece.moments.m0)) : 0;
-    return {piece.face, r, glm::normalize(position(centre)), flux_of(piece.face, r), solid_angle(r, cube_.size), glm::degrees(spread)};
+    return {piece.face, r, glm::normalize(position(centre)), flux_of(piece.face, r), solid_angle(r, cube_.size)};
   }
 
   std::vector<Region> regions_of(std::vector<Piece>& pieces) const

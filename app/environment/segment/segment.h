@@ -32,7 +32,6 @@ struct Region {
   glm::dvec3 direction{0}; ///< unit; where its light comes from: the mean of its directions, weighted by radiance
   glm::dvec3 flux{0};      ///< radiance times solid angle, linear sRGB, W/m^2 of Y on a plane that faces it
   double solid_angle_sr = 0;
-  double spread_deg = 0; ///< how wide the light is: the cosine of this is the length of the mean of its directions, weighted by radiance
 };
 
 struct Segmentation {

@@ -94,7 +94,11 @@ void Renderer::light_up()
   world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
   visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(surroundings_->world, rotate_deg_, task_.surface_points)
                                          : whole_lights(task_.segmentation);
-  lamps_ = surroundings_ ? seen_lights(task_.lamps, surroundings_->world, task_.surface_points) : task_.lamps;
+  std::vector<DistantLight> lights = environment_lights(visible_, rotate_deg_);
+  const std::vector<DistantLight> lamps =
+      surroundings_ ? seen_lights(task_.lamps, surroundings_->world, task_.surface_points) : task_.lamps;
+  lights.insert(lights.end(), lamps.begin(), lamps.end());
+  caustics_.set_lights(lights, task_.placement.turn);
   std::vector<shared::float4> polynomial;
   for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_)) polynomial.push_back(tracing::to_float4(factor));
   irradiance_.write(polynomial);
@@ -103,54 +107,12 @@ void Renderer::light_up()
   fine_.forget_caustics();
 }
 
-std::vector<DistantLight> Renderer::with_lamps(const std::vector<VisibleLight>& visible) const
-{
-  std::vector<DistantLight> lights = environment_lights(visible, rotate_deg_);
-  lights.insert(lights.end(), lamps_.begin(), lamps_.end());
-  return lights;
-}
-
-void Renderer::light_pass()
-{
-  const bool drawn = pass_ > 0 && occlusion_ && task_.settings.refine;
-  if (drawn)
-    caustics_.draw_lights(with_lamps(occlusion_->drawn_lights(static_cast<std::uint32_t>(pass_))), task_.placement.turn,
-                          static_cast<std::uint32_t>(pass_));
-  else
-    caustics_.set_lights(with_lamps(visible_), task_.placement.turn);
-  // Of the coarse cube all caustics are of the first pass. So are the fine one's, as long as nothing is drawn.
-  if (drawn || drawn_) fine_.forget_caustics();
-  drawn_ = drawn;
-}
-
-void Renderer::begin_passes()
+void Renderer::begin_anew()
 {
   pass_ = 0;
   stage_ = Stage::see;
   shaded_ = false;
-  light_pass();
   see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
-}
-
-void Renderer::take_own_directions(bool passes_had_them)
-{
-  air_side_ = 0;
-  coarse_.forget_caustics();
-  fine_.forget_caustics();
-  if (!passes_had_them) return begin_passes();
-  caustics_.set_lights(with_lamps(visible_), task_.placement.turn);
-  if (task_.has_medium) compile_air(fine_side(caustics_.side())); // of the first pass's lights, as always
-  light_pass();
-}
-
-std::vector<glm::dvec3> Renderer::strong_directions(int most) const
-{
-  return environment::strong_directions(with_lamps(visible_), task_.placement.turn, caustics_.directions(), most);
-}
-
-void Renderer::begin_anew()
-{
-  begin_passes();
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
   see(coarse_, block_of_coarse, 0, blocks);
@@ -208,7 +170,6 @@ void Renderer::end_pass()
   stage_ = Stage::see;
   shaded_ = false;
   ++pass_;
-  if (occlusion_ && task_.settings.refine) light_pass(); // else as the pass before
 }
 
 double Renderer::part() const
@@ -375,7 +336,6 @@ void Renderer::state(tracing::State& state)
   // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
   stage_ = shaded_ ? Stage::compile_air : Stage::see;
   see_steps_ = tracing::PixelSteps(pixels(), 8192);
-  take_own_directions(true);
 }
 
 } // namespace nephroid::environment

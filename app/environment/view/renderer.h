@@ -44,16 +44,12 @@ public:
   /// Of the task's scene.
   void move_objects(MovedObjects moved);
   void set_segmentation(Segmentation segmentation);
-  /// After Caustics::set_own. passes_had_them: passes go on; else they begin anew, without a coarse picture.
-  void take_own_directions(bool passes_had_them);
   /// Of the next picture().
   void set_white(double white) { white_ = white; }
 
   const Segmentation& segmentation() const { return task_.segmentation; }
   /// What is left of each of the segmentation's lights where the object is.
   const std::vector<VisibleLight>& visible() const { return visible_; }
-  /// That Caustics::set_own is best given: strong_directions of all lights.
-  std::vector<glm::dvec3> strong_directions(int most) const;
   const scene::Scene& scene() const { return *task_.scene; }
 
   void state(tracing::State& state);
@@ -65,12 +61,9 @@ private:
   void make_occlusion();
   void make_surroundings();
   void find_around();
-  void light_up();   ///< after a change of lights
-  void light_pass(); ///< for the pass in hand: the first has each light as it is, later ones parts of each
+  void light_up(); ///< after a change of lights
   void end_pass();
   void begin_anew();
-  void begin_passes();
-  std::vector<DistantLight> with_lamps(const std::vector<VisibleLight>& visible) const;
   void see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void scatter(int block, std::uint32_t first, std::uint32_t count);
@@ -99,11 +92,9 @@ private:
   std::optional<Receivers> around_; ///< of all directions, for what hides a medium
   int air_side_ = 0;                ///< of the spheres that are compiled for the lights as they are; 0: none
   std::vector<VisibleLight> visible_;
-  std::vector<DistantLight> lamps_; ///< what is left of each
 
   std::int64_t pass_ = 0;
   Stage stage_ = Stage::see;
-  bool drawn_ = false;  ///< whether the caustics are of drawn lights
   bool shaded_ = false; ///< all pixels, in the pass in hand
   tracing::PixelSteps see_steps_, shade_steps_, volume_steps_;
 };
