@@ -4,6 +4,7 @@
 #include "compute/compute.h"
 #include "engine/engine.h"
 #include "environment/bake/baker.h"
+#include "environment/photons.h"
 #include "environment/settings.h"
 #include "environment/view/render_task.h"
 #include "job/job.h"
@@ -13,6 +14,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace nephroid::environment {
@@ -25,6 +27,7 @@ struct EnvironmentPlan : plan::Plan {
   std::filesystem::path bake_file;          ///< where it is kept
   bool bakes = true;                        ///< false: the file is there and looks right
   std::shared_ptr<const RenderTask> render; ///< null where there is no light: then only the bake is shown
+  std::optional<photons::RunPlan> photons;  ///< where there is light, and photons join the spheres
 };
 
 /// bvh: of the scene. Throws bad_input as make_task and make_render_task.

@@ -5,8 +5,10 @@
 #include "environment/bake/bake.h"
 #include "environment/bake/baker.h"
 #include "environment/engine.h"
+#include "environment/photons.h"
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
+#include "tracing/film.h"
 
 #include <fmt/format.h>
 
@@ -33,30 +35,32 @@ public:
   {
     if (render_ && (stop_.passes || !stop_.seconds)) passes_ = stop_.passes.value_or(preset::default_passes);
     if (!plan.bakes) read();
-    if (!bake_)
-      baker_.emplace(*task_, context_);
-    else
-      begin_rendering();
+    if (!bake_) baker_.emplace(*task_, context_);
+    if (refines() || bake_) begin_rendering(plan.photons);
   }
 
   void step() override
   {
     const auto begin = Clock::now();
-    double& seconds = renderer_ ? render_seconds_ : bake_seconds_;
-    if (renderer_)
-      renderer_->step();
-    else
+    const bool rests = !renderer_ || (!wants_photons() && renderer_->passes() >= most_passes());
+    bakes_next_ = baker_ && (rests || !bakes_next_); // else by turns
+    double& seconds = bakes_next_ ? bake_seconds_ : wants_photons() ? photon_seconds_ : render_seconds_;
+    if (bakes_next_)
       bake();
+    else if (wants_photons())
+      send_photons();
+    else
+      renderer_->step();
     seconds += std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
   bool finished() const override
   {
     if (stop_.seconds && work_seconds() >= *stop_.seconds) return true;
-    if (render_) return renderer_ && renderer_->passes() >= (passes_ >= 0 ? passes_ : preset::max_passes);
+    if (render_) return bake_ && renderer_ && passes() >= most_passes();
     return bake_ || (stop_.passes && directions_done() >= *stop_.passes);
   }
-  bool estimates_error() const override { return false; }
+  bool estimates_error() const override { return refines() && !render_->has_medium; }
 
   job::Progress progress() const override
   {
@@ -64,18 +68,18 @@ public:
     p.work_seconds = work_seconds();
     const auto directions = static_cast<std::int64_t>(task_->directions.size());
     if (render_) {
-      p.step = renderer_ ? renderer_->passes() : 0;
+      p.step = passes();
       p.steps = passes_;
-      p.work = static_cast<std::uint64_t>(renderer_ ? (static_cast<double>(p.step) + renderer_->part()) * width_ * height_ : 0);
-      p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
-      const double rendered =
-          renderer_ && passes_ > 0 ? (static_cast<double>(p.step) + renderer_->part()) / static_cast<double>(passes_) : 0;
+      const double seen = renderer_ ? static_cast<double>(renderer_->passes()) + renderer_->part() : 0;
+      p.work = photons_ ? photons_->progress().work : static_cast<std::uint64_t>(seen * width_ * height_);
+      if (!refines()) p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
+      const double rendered = passes_ > 0 ? std::min(seen / static_cast<double>(passes_), 1.0) : 0;
       // A bake takes about as long as all passes.
       p.fraction = baker_ ? 0.5 * baked_part() : bake_seconds_ > 0 ? 0.5 + 0.5 * rendered : rendered;
     } else {
       p.steps = stop_.passes ? std::min<std::int64_t>(directions, *stop_.passes) : directions;
       p.step = directions_done();
-      p.work = bake_ ? photons_ : baker_->photons();
+      p.work = bake_ ? baked_photons_ : baker_->photons();
       p.units = {.step = "direction", .steps = "directions", .work = "photon", .works = "photons"};
       p.fraction = baked_part() * static_cast<double>(directions) / static_cast<double>(p.steps);
     }
@@ -88,18 +92,22 @@ public:
     const Bake& bake = bake_ ? *bake_ : baker_->bake();
     job::Snapshot snapshot;
     if (!renderer_ || renderer_->passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
-    snapshot.picture = renderer_ ? renderer_->picture() : sheet_;
+    snapshot.picture = renderer_ ? mixed_picture() : sheet_;
     snapshot.stands_in = render_ && !renderer_;
     if (!renderer_)
       snapshot.caption = render_ ? "The object is baked first: its caustic spheres, as far as they are"
                                  : "There is no light: the object's caustic spheres, as far as they are baked";
+    else if (baker_)
+      snapshot.caption =
+          fmt::format("Photons alone: the object's caustic spheres join when they are baked, {:.0f} % are", 100 * baked_part());
     snapshot.pictures = spheres_;
     if (renderer_ && sheet_) snapshot.pictures.insert(snapshot.pictures.begin(), {"spheres", sheet_});
     snapshot.progress = progress();
     snapshot.warnings = warnings_;
     snapshot.phases = {{"bake", bake_seconds_}};
     if (render_) snapshot.phases.emplace_back("render", render_seconds_);
-    if (renderer_) snapshot.phases.emplace_back("caustics", caustics_->seconds() - caustics_seconds_before_);
+    if (refines()) snapshot.phases.emplace_back("photons", photon_seconds_);
+    if (caustics_) snapshot.phases.emplace_back("caustics", caustics_->seconds() - caustics_seconds_before_);
     snapshot.scalars = {{"bake", "from_file", from_file_ ? 1.0 : 0.0}};
     add_figures(bake, snapshot);
     if (renderer_) add_lights(snapshot);
@@ -114,10 +122,7 @@ public:
     state.value(render_seconds_);
     state.value(complete);
     if (baker_) baker_->state(state);
-    if (!renderer_) return;
-    double caustics_seconds = caustics_->seconds() - caustics_seconds_before_;
-    state.value(caustics_seconds);
-    renderer_->state(state);
+    if (renderer_) state_of_picture(state);
   }
 
   /// A bake that was complete is in its file, or is baked again.
@@ -131,16 +136,16 @@ public:
     state.value(complete);
     if (complete && !bake_) return read_to_end(source);
     if (!complete) {
-      bake_.reset();
-      renderer_.reset();
+      if (bake_) { // another run has finished it since
+        bake_.reset();
+        caustics_.reset();
+        renderer_.reset();
+        if (refines()) begin_rendering(std::nullopt);
+      }
       if (!baker_) baker_.emplace(*task_, context_);
       baker_->state(state);
-    } else if (renderer_) {
-      double caustics_seconds = 0;
-      state.value(caustics_seconds);
-      renderer_->state(state);
-      caustics_seconds_before_ = caustics_->seconds() - caustics_seconds;
     }
+    if (renderer_) state_of_picture(state);
     bake_seconds_ = bake_seconds;
     render_seconds_ = render_seconds;
   }
@@ -148,14 +153,17 @@ public:
   /// While the object is baked, the change waits until it is rendered. After one that failed there is no renderer to go on with.
   bool adopt(const preset::Preset& preset) override
   {
-    if (!render_ || (bake_ && !renderer_) || !engine::adoptable(preset_, preset)) return false;
+    if (!render_ || ((bake_ || refines()) && !renderer_) || !engine::adoptable(preset_, preset)) return false;
     const preset::Preset turned = with_view_of(preset_, preset);
     const bool relit = turned.scene.environment != preset.scene.environment || turned.scene.lights != preset.scene.lights;
     if (relit && !has_light(scene::load_scene(preset))) return false; // then the bake alone is shown
     try {
       const double caustics_seconds = caustics_ ? caustics_->seconds() : 0;
       if (renderer_ && go_on_with(preset)) { // another picture begins
-        bake_seconds_ = render_seconds_ = 0;
+        photons_.reset();
+        asked_for_photons_ = false;
+        rounds_ahead_ = 0;
+        bake_seconds_ = render_seconds_ = photon_seconds_ = 0;
         caustics_seconds_before_ = caustics_seconds;
       }
     } catch (const Error& error) {
@@ -170,7 +178,81 @@ public:
   }
 
 private:
-  double work_seconds() const { return bake_seconds_ + render_seconds_; }
+  double work_seconds() const { return bake_seconds_ + render_seconds_ + photon_seconds_; }
+
+  /// Whether photons join the spheres.
+  bool refines() const { return render_ && settings(preset_).refine; }
+  std::int64_t most_passes() const { return passes_ >= 0 ? passes_ : preset::max_passes; }
+
+  /// Of the whole picture.
+  std::int64_t passes() const
+  {
+    if (!renderer_) return 0;
+    return photons_ ? std::min(renderer_->passes(), photons_->progress().step) : renderer_->passes();
+  }
+
+  /// Two rounds of photons come before each pass of paths from the eye, so that a first picture of them is there soon, and the others after
+  /// it.
+  bool wants_photons() const
+  {
+    if (!refines() || (asked_for_photons_ && !photons_)) return false;
+    if (!photons_) return true;
+    return photons_->rounds() < photon_rounds * renderer_->passes() + 2 + rounds_ahead_ && photons_->progress().step < most_passes();
+  }
+
+  void send_photons()
+  {
+    if (photons_) return photons_->step();
+    scene::Scene scene = renderer_->scene();
+    scene.camera = scene::make_camera(shown_.scene.camera, scene);
+    if (scene.environment) scene.environment->rotate_deg = backdrop_rotate_deg();
+    begin_photons(scene, plan_photons(shown_, scene, renderer_->bvh()));
+  }
+
+  void begin_photons(const scene::Scene& scene, const photons::RunPlan& plan)
+  {
+    photons_ = make_photons(shown_, scene, renderer_->bvh(), plan, context_);
+    asked_for_photons_ = true;
+  }
+
+  double backdrop_rotate_deg() const { return shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0; }
+
+  /// That of the renderer, with the caustics that photons and spheres say together.
+  std::shared_ptr<const job::Picture> mixed_picture()
+  {
+    const std::shared_ptr<const job::Picture> seen = renderer_->picture();
+    if (!photons_ || photons_->rounds() < 2) return seen;
+    const auto of = [](const job::Picture& picture) -> const std::vector<float>& {
+      return std::ranges::find(picture.layers, "caustic", &job::Layer::name)->rgb;
+    };
+    photons_->set_estimate(caustics_ ? of(*seen) : std::vector<float>());
+    const std::shared_ptr<const job::Picture> sent = photons_->snapshot().picture;
+    auto mixed = std::make_shared<job::Picture>(*seen);
+    std::vector<float>& caustic = tracing::layer_of(*mixed, "caustic").rgb;
+    for (std::size_t i = 0; i < mixed->rgb.size(); ++i) {
+      mixed->rgb[i] += of(*sent)[i] - caustic[i];
+      caustic[i] = of(*sent)[i];
+    }
+    if (sent->error_draw.empty()) mixed->error_draw.clear();
+    for (std::size_t i = 0; i < mixed->error_draw.size(); ++i) mixed->error_draw[i] += sent->error_draw[i];
+    return mixed;
+  }
+
+  void state_of_picture(tracing::State& state)
+  {
+    double caustics_seconds = caustics_ ? caustics_->seconds() - caustics_seconds_before_ : 0;
+    bool has_photons = photons_ != nullptr;
+    state.value(caustics_seconds);
+    state.value(photon_seconds_);
+    state.value(rounds_ahead_);
+    state.value(has_photons);
+    renderer_->state(state);
+    if (caustics_) caustics_seconds_before_ = caustics_->seconds() - caustics_seconds;
+    asked_for_photons_ = has_photons && asked_for_photons_;
+    if (!has_photons) photons_.reset();
+    if (has_photons && !photons_) send_photons(); // which makes them
+    if (has_photons) photons_->state(state);
+  }
 
   /// 0..1
   double baked_part() const
@@ -182,20 +264,27 @@ private:
   {
     baker_->step();
     if (!baker_->finished()) return;
-    photons_ = baker_->photons();
+    baked_photons_ = baker_->photons();
     bake_ = baker_->take();
     baker_.reset(); // its device memory is for others
     keep();
-    begin_rendering();
+    rounds_ahead_ = photons_ ? photons_->rounds() : 0;
+    begin_rendering(std::nullopt);
   }
 
-  void begin_rendering()
+  /// What there is to show. photons: the plan of the preset's, where it is known.
+  void begin_rendering(const std::optional<photons::RunPlan>& photons)
   {
     if (!render_) return;
+    if (!renderer_) {
+      renderer_.emplace(*render_, preset_.white, preset_.seed, context_);
+      shown_ = loaded_;
+      go_on_with(preset_);
+      if (photons) begin_photons(renderer_->scene(), *photons);
+    }
+    if (!bake_) return;
     caustics_.emplace(*bake_, context_, settings(preset_).technique);
-    renderer_.emplace(*render_, *caustics_, preset_.white, preset_.seed, context_);
-    shown_ = loaded_;
-    go_on_with(preset_);
+    renderer_->set_caustics(*caustics_);
   }
 
   bool render_anew(const preset::Preset& preset)
@@ -205,7 +294,8 @@ private:
         std::make_shared<const RenderTask>(make_render_task(preset, scene, scene::build_bvh(scene.geometry), task_->caster, render_.get()));
     loaded_ = preset;
     renderer_.reset(); // its device memory is for the next
-    renderer_.emplace(*render_, *caustics_, preset.white, preset.seed, context_);
+    renderer_.emplace(*render_, preset.white, preset.seed, context_);
+    if (caustics_) renderer_->set_caustics(*caustics_);
     shown_ = preset;
     return true;
   }
@@ -236,6 +326,7 @@ private:
       begins = true;
     }
     renderer_->set_white(preset.white);
+    if (photons_) photons_->set_white(preset.white);
     shown_ = preset;
     return begins;
   }
@@ -279,7 +370,7 @@ private:
   void add_lights(job::Snapshot& snapshot) const
   {
     snapshot.curves.push_back({"lights", {"light", "azimuth_deg", "elevation_deg", "red", "green", "blue", "visible"}, {}});
-    const double rotate_deg = shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0;
+    const double rotate_deg = backdrop_rotate_deg();
     const std::vector<Region>& lights = renderer_->segmentation().lights;
     for (std::size_t i = 0; i < lights.size(); ++i) {
       const glm::dvec3 from = turned(lights[i].direction, rotate_deg), all = lights[i].flux, left = renderer_->visible()[i].flux;
@@ -309,8 +400,12 @@ private:
   double caustics_seconds_before_ = 0; ///< of Caustics::seconds(), what was before the newest preset
   std::optional<Renderer> renderer_;
   bool from_file_ = false;
-  std::uint64_t photons_ = 0; ///< that the finished bake took here
-  double bake_seconds_ = 0, render_seconds_ = 0;
+  bool bakes_next_ = false;
+  std::unique_ptr<photons::Run> photons_; ///< null: there are none, or not yet
+  bool asked_for_photons_ = false;        ///< whether it is known which
+  std::int64_t rounds_ahead_ = 0;         ///< of photons when the bake was done
+  std::uint64_t baked_photons_ = 0;       ///< that the finished bake took here
+  double bake_seconds_ = 0, render_seconds_ = 0, photon_seconds_ = 0;
   std::shared_ptr<const job::Picture> sheet_; ///< of the directions in spheres_
   std::vector<job::NamedPicture> spheres_;    ///< of each direction that is shown and baked
   std::vector<std::string> warnings_;

@@ -20,9 +20,10 @@ void check(const preset::Preset& preset, const preset::Where& where)
   if (!std::ranges::count(direction_counts(), s.directions))
     throw bad_input(where("/environment/directions"), fmt::format("is {}", s.directions), "expected 26, 98 or 386",
                     "they are the points of 3 x 3, 5 x 5 and 9 x 9 grids on a cube's faces");
-  if (preset.stop.error && !preset.reference)
-    throw bad_input(where("/stop/error"), "the engine 'environment' makes no estimate of its error",
-                    "expected 'stop.passes' or 'stop.seconds'");
+  if (preset.stop.error && !preset.reference && (!s.refine || s.extinction > 0))
+    throw bad_input(where("/stop/error"),
+                    "nothing measures the error of this run: spheres alone, and caustics in the air, make no estimate of it",
+                    "expected a 'reference', or 'environment.refine' true and 'environment.extinction' 0");
 }
 
 } // namespace

@@ -62,7 +62,7 @@ public:
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
     world_.emitters = compute::Buffer(context, "emitters", plan.tables.emitters);
-    if (plan.runs(map_stage)) world_.map.emplace(context, world_.tables.photons_per_pass, world_.defines);
+    if (plan.runs(map_stage)) world_.map.emplace(context, world_.tables.photons_per_pass(), world_.defines);
     for (const RunPart* part : plan.parts)
       if (part->make) stages_.push_back({part->make(world_, scene, settings), std::string_view(part->layer) == "caustic"});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
@@ -132,8 +132,8 @@ public:
     snapshot.picture = std::move(picture);
     snapshot.whole = at_.pass > 0;
     snapshot.progress = progress();
-    const double photon_passes = this->photon_passes() - at_.energy_from;
-    Energy energy{balance_of(outcome_watts(world_.energy.read(), world_.tables.energy_scale, photon_passes)), {}};
+    const double rounds = photon_rounds() - at_.energy_from;
+    Energy energy{balance_of(outcome_watts(world_.energy.read(), world_.tables.energy_scale, rounds)), {}};
     for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, energy);
     add_energy(energy, snapshot);
     return snapshot;
@@ -176,12 +176,13 @@ public:
     change_light(*world_.relighting, world_, layer_light(preset));
     preset_ = preset;
     world_.white = preset.white;
-    at_.energy_from = photon_passes();
+    at_.energy_from = photon_rounds();
     return true;
   }
 
   void set_estimate(std::vector<float> caustics) override { estimate_ = std::move(caustics); }
   void set_white(double white) override { world_.white = white; }
+  std::int64_t rounds() const override { return static_cast<std::int64_t>(photon_rounds()); }
 
   void state(tracing::State& state) override
   {
@@ -200,7 +201,7 @@ private:
     std::size_t stage = 0;     ///< whose turn it is
     bool part_of_pass = false; ///< whether it has begun
     double work_seconds = 0;
-    double energy_from = 0; ///< passes of photons when the energy counters began
+    double energy_from = 0; ///< rounds of photons when the energy counters began
   };
 
   /// Deals the work of the next passes out between photons and paths through glass, by how much each has left of the picture's noise: the
@@ -247,15 +248,25 @@ private:
   }
 
   /// With both halves whole: what a few photons of one tell of the noise makes blotches.
-  bool smooths() const { return smoothing_ && at_.pass >= 2; }
+  bool smooths() const
+  {
+    const auto has_halves = [&](const TimedStage& s) { return s.caustics && s.stage->has_halves(at_.pass); };
+    return smoothing_ && std::ranges::any_of(stages_, has_halves);
+  }
 
   /// Adds the layer "caustic", spread, and its error.
   void add_smooth_caustics(job::Picture& picture)
   {
     job::Picture caustics = black();
+    bool lacks_maps = false;
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (stages_[s].caustics) stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);
+      if (stages_[s].caustics && stages_[s].stage->has_halves(at_.pass))
+        stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);
+      else
+        lacks_maps = lacks_maps || stages_[s].caustics;
     std::vector<float>& rgb = tracing::layer_of(caustics, "caustic").rgb;
+    for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
+      if (world_.pixels.may_show_glass[i / 3]) rgb[i] = estimate_[i], caustics.error_draw[i] = 0;
     const auto begin = Clock::now();
     smoothing_->spread(rgb, caustics.error_draw, estimate_);
     smoothing_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
@@ -277,10 +288,10 @@ private:
   }
 
   /// Of those that DeviceWorld::energy is about, with the part of the one in hand.
-  double photon_passes() const
+  double photon_rounds() const
   {
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (stages_[s].stage->counts_energy()) return static_cast<double>(at_.pass) + part_of(s);
+      if (stages_[s].stage->counts_energy()) return (static_cast<double>(at_.pass) + part_of(s)) * world_.tables.rounds;
     return 0;
   }
 

@@ -38,6 +38,8 @@ public:
   virtual void set_estimate(std::vector<float> caustics) = 0;
   /// Of pictures from now on. While estimates are of another one there must be none.
   virtual void set_white(double white) = 0;
+  /// Of photons that are splatted, complete ones: Settings::rounds a pass.
+  virtual std::int64_t rounds() const = 0;
   /// All that save() and load() are about.
   virtual void state(tracing::State& state) = 0;
 };

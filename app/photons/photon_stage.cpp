@@ -33,16 +33,17 @@ public:
   }
 
   const char* name() const override { return "photons"; }
-  double part() const override { return slices_.part(); }
-  std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass; }
+  double part() const override { return (static_cast<double>(round_) + slices_.part()) / world_.tables.rounds; }
+  std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
   bool counts_energy() const override { return true; }
 
   bool step(std::int64_t pass) override
   {
-    if (by_variance_ && slices_.at_start() && deal_.is_due(pass)) deal(pass);
     const RunTables& t = world_.tables;
-    return slices_.step(t.photons_per_pass, [&](const tracing::Slice& slice) {
-      world_.send(kernel_, slice, pass,
+    const std::int64_t round = pass * t.rounds + round_;
+    if (by_variance_ && slices_.at_start() && deal_.is_due(round)) deal(round);
+    const bool complete = slices_.step(t.photons_per_round, [&](const tracing::Slice& slice) {
+      world_.send(kernel_, slice, round,
                   {{"targets", world_.buffers.targets},
                    {"emitters", world_.emitters},
                    {"film", film_},
@@ -52,19 +53,28 @@ public:
                    {"guide", guide_table_},
                    {"unseen_weight", unseen_weight()},
                    {"stored", stored_},
+                   {"stored_first", static_cast<std::uint32_t>(round_) * t.photons_per_round},
+                   {"map_pass", static_cast<std::uint32_t>(pass)},
                    {"emitter_count", t.scene.emitter_count},
                    {"object_count", static_cast<int>(t.objects.size())},
                    {"seed", world_.seed},
                    {"first_pass", static_cast<std::uint32_t>(deal_.first_pass())},
                    {"film_scale", world_.on_device(t.caustic_scale)},
                    {"energy_scale", world_.on_device(t.energy_scale)},
-                   {"stored_scale", world_.on_device(photon_scale(t.photons_per_pass, t.light_towards_targets_w))}});
+                   {"stored_scale", world_.on_device(photon_scale(t.photons_per_round, t.light_towards_targets_w))}});
     });
+    if (complete) ++round_;
+    if (round_ < t.rounds) return false;
+    round_ = 0;
+    return true;
   }
+
+  bool has_halves(std::int64_t passes) const override { return passes * world_.tables.rounds + round_ >= 2; }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
+    const std::int64_t rounds = world_.tables.rounds;
+    const auto samples = [&](std::size_t) { return tracing::halves_of(passes * rounds + (done ? rounds : round_), slices_.part()); };
     tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
@@ -72,6 +82,7 @@ public:
   {
     const bool was_by_variance = by_variance_;
     slices_.state(state);
+    state.value(round_);
     state.value(by_variance_);
     state.buffer(film_);
     deal_.state(state);
@@ -91,17 +102,17 @@ private:
     kernel_ = compute::Program(world_.context, "photons/photons.cl", defines).kernel("photons");
   }
 
-  /// Deals the photons of the passes from this one on by what the earlier ones have shown.
-  void deal(std::int64_t pass)
+  /// Deals the photons of the rounds from this one on by what the earlier ones have shown.
+  void deal(std::int64_t round)
   {
     std::vector<double> photons(world_.tables.lights.size(), 0); // of a pass, of each light
     for (const shared::DeviceEmitter& e : deal_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
-    guide_.learn(guide_moments_.read(), photons, static_cast<double>(pass - deal_.first_pass()));
-    deal_.deal(pass, moments_.read(), world_.halves);
-    if (!insists_ && pass > 2 && deal_.gain() < least_gain) { // pass 2 is the first that is dealt by what was measured
+    guide_.learn(guide_moments_.read(), photons, static_cast<double>(round - deal_.first_pass()));
+    deal_.deal(round, moments_.read(), world_.halves);
+    if (!insists_ && round > 2 && deal_.gain() < least_gain) { // round 2 is the first that is dealt by what was measured
       by_variance_ = false;
       make_kernel();
-      deal_.deal_as_first(pass, world_.halves);
+      deal_.deal_as_first(round, world_.halves);
     }
     moments_.fill_zero();
     guide_moments_.fill_zero();
@@ -119,7 +130,8 @@ private:
   float unseen_weight() const
   {
     const RunTables& t = world_.tables;
-    return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_pass * std::numbers::pi / (t.caustic_scale * t.light_towards_targets_w));
+    return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_round * std::numbers::pi /
+                              (t.caustic_scale * t.light_towards_targets_w));
   }
 
   DeviceWorld& world_;
@@ -134,6 +146,7 @@ private:
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   compute::Kernel kernel_;
   tracing::PhotonSlices slices_;
+  std::int64_t round_ = 0; ///< of the pass in hand
 };
 
 PlanPart plan_photons(const PlanInput& input)
@@ -145,9 +158,9 @@ PlanPart plan_photons(const PlanInput& input)
   if (const Effort effort = input.settings.effort; effort == Effort::variance || effort == Effort::automatic)
     part.buffers.push_back({"guide of directions", input.tables.lights.size() * (EmissionGuide::floats * sizeof(float) +
                                                                                  EmissionGuide::cells * sizeof(std::int64_t))});
-  if (const int wanted = input.settings.photons_per_pass; input.tables.photons_per_pass > static_cast<unsigned>(wanted))
+  if (const int wanted = input.settings.photons_per_pass; input.tables.photons_per_pass() > static_cast<unsigned>(wanted))
     part.notes.push_back(fmt::format("spectral.photons_per_pass: raised from {} to {}, one for each cluster of each light", wanted,
-                                     input.tables.photons_per_pass));
+                                     input.tables.photons_per_pass()));
   return part;
 }
 

@@ -239,7 +239,7 @@ plan::Pass caustics_pass(const PlanInput& input)
                                                                                      : "";
   if (!missing.empty()) return tracing::not_needed(name, input.leave_out.photons, missing);
   if (input.tables.emitters.empty()) return {name, false, "no light shines on glass or a mirror"};
-  return tracing::needed(name, fmt::format("{} photons a pass in {}", input.tables.photons_per_pass,
+  return tracing::needed(name, fmt::format("{} photons a pass in {}", input.tables.photons_per_pass(),
                                            counted(std::ssize(input.tables.wavelengths.clusters), "wavelength cluster")));
 }
 

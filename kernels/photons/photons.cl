@@ -51,7 +51,8 @@ static inline bool store_photon(__global StoredPhoton* slot, const Surface* surf
   return fits;
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. energy counts what photons carry, whatever a smooth
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a round, whose number is `pass`; a pass of maps, map_pass, has
+// one round or several. energy counts what photons carry, whatever a smooth
 // receiver makes of it by its shading normals.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
@@ -59,8 +60,8 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
                       volatile __global long* guide_moments, // ... [light][GUIDE_CELLS]
                       __global const float* guide,           // ... [light][GUIDE_FLOATS]
                       float unseen_weight,                   // ... of a stored photon that no pixel sees directly, as if one did
-                      __global StoredPhoton* stored,                                // [photon], with NEPHROID_STORE
-                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint pass, uint first_pass, uint offset,
+                      __global StoredPhoton* stored, uint stored_first,             // [photon], with NEPHROID_STORE; where the round begins
+                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint pass, uint map_pass, uint first_pass, uint offset,
                       uint stride, uint count, float film_scale, float energy_scale, float stored_scale)
 {
   const World world = WORLD;
@@ -71,7 +72,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     if (number >= count) break;
     const uint photon = offset + stride * number;
 #if NEPHROID_STORE
-    stored[photon].group = NO_PHOTON;
+    stored[stored_first + photon].group = NO_PHOTON;
 #endif
     PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, first_pass, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
@@ -87,7 +88,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     if (emission.watts == 0.0f) continue;
 #if NEPHROID_STORE
     const int part = part_of_cluster(start.wavelength);
-    const Band band = band_of_pass(&world, emitter.cluster, part, seed, pass);
+    const Band band = band_of_pass(&world, emitter.cluster, part, seed, map_pass);
 #else
     const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
 #endif
@@ -98,7 +99,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
       const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
-      if (!store_photon(stored + photon, &end.surface, path.direction, band_number(emitter.cluster, part), object_count, xyz, stored_scale,
+      if (!store_photon(stored + stored_first + photon, &end.surface, path.direction, band_number(emitter.cluster, part), object_count, xyz, stored_scale,
                         start.emission.w))
         ++outcomes[OUTCOME_REFUSED];
     }

@@ -64,7 +64,7 @@ void expect_clusters_in_proportion(const RunTables& tables, const std::vector<do
     EXPECT_NEAR(counts[0][c], photons_for(part * (1 - candle), tables), 1) << c;
     EXPECT_NEAR(counts[1][c], photons_for(part * candle, tables), 1) << c;
   }
-  EXPECT_EQ(tables.photons_per_pass, photons);
+  EXPECT_EQ(tables.photons_per_round, photons);
 }
 
 TEST(DealtEffort, EqualGivesEveryClusterTheSame)

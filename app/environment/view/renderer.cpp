@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
+#include <string_view>
 
 namespace nephroid::environment {
 namespace {
@@ -25,7 +27,7 @@ int coarse_side(int side) { return std::max(side / 4, 8); }
 
 std::uint64_t Renderer::bytes_a_pixel(const RenderTask& task)
 {
-  return ends_of_pixel(task) * sizeof(shared::DeviceEnd) + 3 * sizeof(float) * static_cast<std::uint64_t>(layers(task));
+  return ends_of_pixel(task) * sizeof(shared::DeviceEnd) + 2 * 3 * sizeof(float) * static_cast<std::uint64_t>(layers(task));
 }
 
 std::uint64_t Renderer::receiver_bytes() { return Receivers::bytes(coarse_receivers) + Receivers::bytes(fine_receivers); }
@@ -35,7 +37,7 @@ std::uint64_t Renderer::medium_bytes(const Bake& bake)
   return Receivers::bytes(coarse_receivers) + Caustics::air_bytes(bake, fine_side(bake.map.side));
 }
 
-Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint64_t seed, const compute::Context& context)
+Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const compute::Context& context)
     : task_(std::move(task)), white_(white), rotate_deg_(backdrop(*task_.scene).rotate_deg), context_(context),
       world_(tracing::make_world(context, *task_.scene, *task_.bvh, task_.tables, task_.defines, seed)),
       channel_cdf_(compute::Buffer(context, "wavelengths of channels", channel_cdf())),
@@ -44,19 +46,27 @@ Renderer::Renderer(RenderTask task, Caustics& caustics, double white, std::uint6
       moments_(irradiance_moments(task_.cube)), irradiance_(context, "irradiance", std::tuple_size_v<IrradiancePolynomial>),
       texels_(compute::Buffer(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
-      ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())),
-      sums_(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels())), caustics_(caustics),
-      coarse_(context, coarse_receivers), fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192),
-      volume_steps_(pixels(), 8192)
+      ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())), coarse_(context, coarse_receivers),
+      fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192), volume_steps_(pixels(), 8192)
 {
+  for (compute::Buffer<float>& sums : sums_)
+    sums = compute::Buffer<float>(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels()));
   make_occlusion();
   make_kernels();
   if (task_.has_medium) {
-    volume_sums_ = compute::Buffer<float>(context, "light in the air", 3 * static_cast<std::size_t>(pixels()));
+    for (compute::Buffer<float>& sums : volume_sums_)
+      sums = compute::zeroed<float>(context, "light in the air", 3 * static_cast<std::size_t>(pixels()));
     around_.emplace(context, coarse_receivers);
   }
   if (task_.has_surroundings) make_surroundings();
   find_around();
+  light_up();
+  begin_anew();
+}
+
+void Renderer::set_caustics(Caustics& caustics)
+{
+  caustics_ = &caustics;
   light_up();
   begin_anew();
 }
@@ -98,7 +108,7 @@ void Renderer::light_up()
   const std::vector<DistantLight> lamps =
       surroundings_ ? seen_lights(task_.lamps, surroundings_->world, task_.surface_points) : task_.lamps;
   lights.insert(lights.end(), lamps.begin(), lamps.end());
-  caustics_.set_lights(lights, task_.placement.turn);
+  if (caustics_) caustics_->set_lights(lights, task_.placement.turn);
   std::vector<shared::float4> polynomial;
   for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_)) polynomial.push_back(tracing::to_float4(factor));
   irradiance_.write(polynomial);
@@ -117,23 +127,23 @@ void Renderer::begin_anew()
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
   see(coarse_, block_of_coarse, 0, blocks);
   find_wanted(coarse_);
-  while (!coarse_.cast(caustics_)) {
+  while (caustics_ && !coarse_.cast(*caustics_)) {
   }
   shade(coarse_, block_of_coarse, 0, blocks);
-  if (!task_.has_medium) return;
-  if (air_side_ == 0) compile_air(coarse_side(caustics_.side()));
+  if (!scatters()) return;
+  if (air_side_ == 0) compile_air(coarse_side(caustics_->side()));
   scatter(block_of_coarse, 0, blocks);
 }
 
 void Renderer::compile_air(int side)
 {
-  caustics_.compile_air(side);
+  caustics_->compile_air(side);
   air_side_ = side;
 }
 
 void Renderer::find_wanted(Receivers& receivers)
 {
-  if (!task_.settings.cast) return; // caustics are 0 where nothing has been looked up
+  if (!task_.settings.cast || !caustics_) return; // caustics are 0 where nothing has been looked up
   receivers.find_wanted(surroundings_, task_.placement.middle);
 }
 
@@ -146,18 +156,18 @@ void Renderer::step()
     stage_ = Stage::cast;
     return;
   case Stage::cast:
-    if (fine_.cast(caustics_)) stage_ = Stage::shade;
+    if (!caustics_ || fine_.cast(*caustics_)) stage_ = Stage::shade;
     return;
   case Stage::shade:
     if (!shade_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); })) return;
     shaded_ = true;
-    if (task_.has_medium)
+    if (scatters())
       stage_ = Stage::compile_air;
     else
       end_pass();
     return;
   case Stage::compile_air:
-    if (const int side = fine_side(caustics_.side()); air_side_ != side) compile_air(side);
+    if (const int side = fine_side(caustics_->side()); air_side_ != side) compile_air(side);
     stage_ = Stage::volume;
     return;
   case Stage::volume:
@@ -175,7 +185,7 @@ void Renderer::end_pass()
 double Renderer::part() const
 {
   const double done = (stage_ == Stage::see ? see_steps_.part() : 1) + (shaded_ ? 1 : shade_steps_.part()) + volume_steps_.part();
-  return done / (task_.has_medium ? 3 : 2);
+  return done / (scatters() ? 3 : 2);
 }
 
 void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::uint32_t count)
@@ -197,7 +207,7 @@ void Renderer::see(Receivers& receivers, int block, std::uint32_t first, std::ui
 void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count)
 {
   const scene::Environment& sky = backdrop(*task_.scene);
-  const int anew = pass_ == 0 ? 1 : 0;
+  const int anew = pass_ < 2 ? 1 : 0;
   world_.run(block == 1 ? shade_ : coarse_shade_, count, 32,
              {{"ends", ends_},
               {"texels", texels_},
@@ -211,7 +221,7 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
               {"size", receivers.size()},
               {"distances", receivers.distances()},
               {"caustics", receivers.caustics()},
-              {"sums", sums_},
+              {"sums", sums_[half()]},
               {"width", task_.tables.camera.width},
               {"height", task_.tables.camera.height},
               {"seed", world_.seed},
@@ -224,12 +234,12 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
 
 void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
 {
-  const Caustics::Air& air = caustics_.air();
+  const Caustics::Air& air = caustics_->air();
   const Settings& s = task_.settings;
-  const int anew = pass_ == 0 ? 1 : 0;
+  const int anew = pass_ < 2 ? 1 : 0;
   world_.run(volume_, count, 32,
              {{"air", air.light},
-              {"radii", caustics_.radii()},
+              {"radii", caustics_->radii()},
               {"spheres", air.spheres},
               {"object_x", air.object_x},
               {"object_y", air.object_y},
@@ -242,7 +252,7 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
               {"albedo", static_cast<float>(s.albedo)},
               {"rayleigh", static_cast<int>(s.phase == Settings::Phase::rayleigh)},
               {"anisotropy", static_cast<float>(s.anisotropy)},
-              {"sums", volume_sums_},
+              {"sums", volume_sums_[half()]},
               {"seed", world_.seed},
               {"pass", static_cast<std::uint32_t>(pass_)},
               {"block", block},
@@ -258,25 +268,31 @@ std::shared_ptr<const job::Picture> Renderer::picture() const
   picture->height = task_.tables.camera.height;
   const auto count = static_cast<std::size_t>(pixels());
   picture->rgb.resize(3 * count);
-  const auto add = [&](const char* name, const compute::Buffer<float>& sums, std::size_t first) {
-    std::vector<float>& rgb = picture->layers.emplace_back(job::Layer{name, std::vector<float>(3 * count)}).rgb;
-    sums.RawBuffer::read(rgb.data(), 3 * count * sizeof(float), first * sizeof(float));
-  };
-  for (std::size_t l = 0; l < layer_names.size(); ++l) add(layer_names[l], sums_, 3 * count * l);
-  if (task_.has_medium) add("volume", volume_sums_, 0);
+  if (pass_ >= 2) picture->error_draw.resize(3 * count);
   // The pixels before these have had the pass in hand as well. The coarse picture is one sample.
   const std::size_t shaded = shaded_ ? count : static_cast<std::size_t>(shade_steps_.done()),
                     scattered = static_cast<std::size_t>(volume_steps_.done());
-  for_ranges(count, 1 << 14, [&](std::size_t, const Range& range) {
-    for (std::size_t l = 0; l < picture->layers.size(); ++l) {
-      const std::size_t ahead = std::clamp(l < layer_names.size() ? shaded : scattered, range.begin, range.end);
-      for (const bool more : {true, false}) {
-        const auto scale = static_cast<float>(1 / (white_ * static_cast<double>(more ? pass_ + 1 : std::max<std::int64_t>(1, pass_))));
-        const std::size_t end = 3 * (more ? ahead : range.end);
-        for (std::size_t i = 3 * (more ? range.begin : ahead); i < end; ++i) picture->rgb[i] += picture->layers[l].rgb[i] *= scale;
+  const auto add = [&](const char* name, const std::array<compute::Buffer<float>, 2>& sums, std::size_t first, std::size_t ahead) {
+    std::array<std::vector<float>, 2> halves{std::vector<float>(3 * count), std::vector<float>(3 * count)};
+    for (const std::size_t h : {0, 1})
+      if (pass_ > 0 || h == 0) sums[h].RawBuffer::read(halves[h].data(), 3 * count * sizeof(float), first * sizeof(float));
+    std::vector<float>& rgb = picture->layers.emplace_back(job::Layer{name, std::vector<float>(3 * count)}).rgb;
+    const bool has_draw = !picture->error_draw.empty() && std::string_view(name) != "caustic";
+    for_ranges(3 * count, 1 << 14, [&](std::size_t, const Range& range) {
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        std::array<double, 2> samples{static_cast<double>((pass_ + 1) / 2), static_cast<double>(pass_ / 2)};
+        if (i < 3 * ahead || pass_ == 0) samples[half()] = static_cast<double>(pass_ / 2 + 1);
+        const double all = samples[0] + samples[1];
+        picture->rgb[i] += rgb[i] =
+            static_cast<float>((static_cast<double>(halves[0][i]) + (samples[1] > 0 ? halves[1][i] : 0)) / (white_ * all));
+        if (has_draw)
+          picture->error_draw[i] += static_cast<float>((halves[0][i] / samples[0] - halves[1][i] / samples[1]) *
+                                                       std::sqrt(samples[0] * samples[1]) / (white_ * all));
       }
-    }
-  });
+    });
+  };
+  for (std::size_t l = 0; l < layer_names.size(); ++l) add(layer_names[l], sums_, 3 * count * l, shaded);
+  if (task_.has_medium) add("volume", volume_sums_, 0, scattered);
   return picture;
 }
 
@@ -330,8 +346,10 @@ void Renderer::state(tracing::State& state)
   state.value(shaded_);
   shade_steps_.state(state);
   volume_steps_.state(state);
-  state.buffer(sums_);
-  if (task_.has_medium) state.buffer(volume_sums_);
+  for (const std::size_t half : {0, 1}) {
+    state.buffer(sums_[half]);
+    if (task_.has_medium) state.buffer(volume_sums_[half]);
+  }
   if (!state.is_read()) return;
   // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
   stage_ = shaded_ ? Stage::compile_air : Stage::see;

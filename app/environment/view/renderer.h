@@ -11,6 +11,7 @@
 #include "tracing/state.h"
 #include "tracing/step_size.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -27,15 +28,18 @@ public:
   /// For a medium: of the compiled spheres, and of the cube of what hides them.
   static std::uint64_t medium_bytes(const Bake& bake);
 
-  /// caustics: of task's caster; they outlive the renderer. white: as preset::Preset has it. Throws failed where the device has not enough
-  /// memory.
-  Renderer(RenderTask task, Caustics& caustics, double white, std::uint64_t seed, const compute::Context& context);
+  /// white: as preset::Preset has it. Throws failed where the device has not enough memory.
+  Renderer(RenderTask task, double white, std::uint64_t seed, const compute::Context& context);
+
+  /// Begins anew with the caustics of the task's caster, which outlive the renderer. Until then there are none.
+  void set_caustics(Caustics& caustics);
 
   /// One step of about 50 ms of the pass in hand.
   void step();
   std::int64_t passes() const { return pass_; } ///< complete ones
   double part() const;                          ///< of the pass in hand, 0..1
-  /// Layers background, direct, caustic and, in a medium, volume: the mean of all samples so far.
+  /// Layers background, direct, caustic and, in a medium, volume: the mean of all samples so far. error_draw: of all but the layer caustic,
+  /// whose light comes from spheres.
   std::shared_ptr<const job::Picture> picture() const;
 
   /// Each begins anew with a coarse picture. where: FILE#/scene/camera.
@@ -50,7 +54,9 @@ public:
   const Segmentation& segmentation() const { return task_.segmentation; }
   /// What is left of each of the segmentation's lights where the object is.
   const std::vector<VisibleLight>& visible() const { return visible_; }
+  /// As loaded, with objects where they are now.
   const scene::Scene& scene() const { return *task_.scene; }
+  const scene::Bvh& bvh() const { return *task_.bvh; }
 
   void state(tracing::State& state);
 
@@ -69,6 +75,8 @@ private:
   void scatter(int block, std::uint32_t first, std::uint32_t count);
   void compile_air(int side);
   void find_wanted(Receivers& receivers);
+  bool scatters() const { return task_.has_medium && caustics_; }
+  std::size_t half() const { return static_cast<std::size_t>(pass_ % 2); } ///< of the pass in hand
   std::int64_t pixels() const { return std::int64_t{task_.tables.camera.width} * task_.tables.camera.height; }
 
   RenderTask task_;
@@ -85,9 +93,9 @@ private:
   compute::Buffer<float> texels_;
   shared::DeviceBackground texels_size_{};
   compute::Buffer<shared::DeviceEnd> ends_;
-  compute::Buffer<float> sums_;        ///< [layer][pixel][3]
-  compute::Buffer<float> volume_sums_; ///< [pixel][3]
-  Caustics& caustics_;
+  std::array<compute::Buffer<float>, 2> sums_;        ///< of even and of odd passes: [layer][pixel][3]
+  std::array<compute::Buffer<float>, 2> volume_sums_; ///< [pixel][3]
+  Caustics* caustics_ = nullptr;
   Receivers coarse_, fine_;
   std::optional<Receivers> around_; ///< of all directions, for what hides a medium
   int air_side_ = 0;                ///< of the spheres that are compiled for the lights as they are; 0: none

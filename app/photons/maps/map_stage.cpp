@@ -35,11 +35,11 @@ public:
   bool step(std::int64_t pass) override
   {
     const double radius = first_radius_ * map_radius_factor(pass, alpha_);
-    if (sorted_pass_ != pass) map_.build(radius, world_.tables.photons_per_pass);
+    if (sorted_pass_ != pass) map_.build(radius, world_.tables.photons_per_pass());
     sorted_pass_ = pass;
     const RunTables& t = world_.tables;
-    const double quanta = photon_scale(t.photons_per_pass, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
-    const auto film_per_quantum = static_cast<float>(t.caustic_scale / quanta / std::pow(std::numbers::pi * metres, 2));
+    const double quanta = photon_scale(t.photons_per_round, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
+    const auto film_per_quantum = static_cast<float>(t.caustic_scale / quanta / t.rounds / std::pow(std::numbers::pi * metres, 2));
     const auto number = static_cast<std::uint32_t>(pass);
     const EyePaths::Paths paths{paths_, before_[0] + before_[1], before_[number % 2]};
     const bool complete = eye_.step(world_.seed, number, paths, -1, [&](const auto& points, std::uint32_t first, std::uint32_t count) {
@@ -107,7 +107,7 @@ plan::Pass map_pass(const PlanInput& input)
 
 PlanPart plan_maps(const PlanInput& input)
 {
-  PlanPart part = plan_gathering(input, map_pass(input), input.tables.photons_per_pass);
+  PlanPart part = plan_gathering(input, map_pass(input), input.tables.photons_per_pass());
   const bool runs = part.passes[0].runs;
   if (runs) part.buffers.push_back({"film photon maps", input.film_bytes()});
   // Wavelengths of a cluster in one pass, as photons and eye paths of one wavelength need each other: so many that a pass has 32 in all,

@@ -220,7 +220,8 @@ private:
     const int cluster = std::min(at_.cluster, cluster_count() - 1);
     const Sender& sender = senders_[static_cast<std::size_t>(cluster)];
     const RunTables& t = world_.tables;
-    world_.send(send_, slice, iterations_of(cluster, pass),
+    const std::int64_t iteration = iterations_of(cluster, pass);
+    world_.send(send_, slice, iteration,
                 {{"targets", world_.buffers.targets},
                  {"emitters", sender.emitters},
                  {"film", unused_},
@@ -230,6 +231,8 @@ private:
                  {"guide", no_guide_},
                  {"unseen_weight", 0.0f},
                  {"stored", map_.stored()},
+                 {"stored_first", 0u},
+                 {"map_pass", static_cast<std::uint32_t>(iteration)},
                  {"emitter_count", sender.emitter_count},
                  {"object_count", static_cast<int>(t.objects.size())},
                  {"seed", seed_of(cluster)},

@@ -18,21 +18,21 @@ public:
       : world_(world), relighting_(relighting_of(world, scene)), emitters_(world.tables.emitters), sent_(emitters_.size()),
         film_(world.context, "film caustic", relighting_.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
         // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see set_scales.
-        scale_(world.tables.caustic_scale / world.tables.photons_per_pass)
+        scale_(world.tables.caustic_scale / world.tables.photons_per_round)
   {
     kernel_ = compute::Program(world.context, "photons/relight_photons.cl", world.photon_defines()).kernel("photons");
   }
 
   const char* name() const override { return "photons"; }
   double part() const override { return slices_.part(); }
-  std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass; }
+  std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_round; }
   bool counts_energy() const override { return true; }
 
   bool step(std::int64_t pass) override
   {
     take_light(pass);
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
-    const bool complete = slices_.step(world_.tables.photons_per_pass, [&](const tracing::Slice& slice) {
+    const bool complete = slices_.step(world_.tables.photons_per_round, [&](const tracing::Slice& slice) {
       world_.send(kernel_, slice, pass,
                   {{"targets", world_.buffers.targets},
                    {"emitters", world_.emitters},
@@ -140,7 +140,7 @@ private:
   {
     const bool deals = slices_.at_start() && dealt_ != relighting_.changes;
     if (!deals && shared_ == relighting_.changes) return;
-    const std::vector<shared::DeviceEmitter> now = layer_emitters(relighting_.light, world_.tables, world_.tables.photons_per_pass);
+    const std::vector<shared::DeviceEmitter> now = layer_emitters(relighting_.light, world_.tables, world_.tables.photons_per_round);
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
       emitters_[e].share = now[e].share;
       if (!deals) continue;

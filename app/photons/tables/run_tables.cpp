@@ -31,7 +31,7 @@ std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, con
 void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables)
 {
   const double metres = scene.metres_per_unit, radius = tracing::scene_bounds(scene).radius;
-  tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_pass, tables.light_towards_targets_w);
+  tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_round, tables.light_towards_targets_w);
   double irradiance = 0;
   for (const scene::Light& light : scene.lights)
     irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(radius * metres, 2));
@@ -47,10 +47,12 @@ RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, c
   RunTables tables;
   static_cast<tracing::SceneTables&>(tables) = tracing::make_scene_tables(scene, scene_clusters(settings, scene), leave_out);
   ClusterShares shares = make_cluster_shares(settings, scene, bvh, tables.towards_targets_w, tables.wavelengths);
-  tables.emitters = make_emitters(photon_sources(shares.photons, tables.wavelengths), static_cast<unsigned>(settings.photons_per_pass));
+  tables.emitters =
+      make_emitters(photon_sources(shares.photons, tables.wavelengths), static_cast<unsigned>(settings.photons_per_pass / settings.rounds));
   tables.importance = std::move(shares.importance);
-  tables.photons_per_pass = count_photons(tables.emitters);
-  tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass);
+  tables.photons_per_round = count_photons(tables.emitters);
+  tables.rounds = static_cast<unsigned>(settings.rounds);
+  tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass());
   tables.scene.max_surfaces = settings.max_surfaces;
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
   set_scales(scene, settings.pixel_samples, tables);
