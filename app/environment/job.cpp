@@ -8,13 +8,13 @@
 #include "environment/photons.h"
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
-#include "tracing/film.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -92,7 +92,7 @@ public:
     const Bake& bake = bake_ ? *bake_ : baker_->bake();
     job::Snapshot snapshot;
     if (!renderer_ || renderer_->passes() > 0 || finished()) draw_spheres(bake); // not before the first picture, which it would hold up
-    snapshot.picture = renderer_ ? mixed_picture() : sheet_;
+    snapshot.picture = renderer_ ? picture() : sheet_;
     snapshot.stands_in = render_ && !renderer_;
     if (!renderer_)
       snapshot.caption = render_ ? "The object is baked first: its caustic spheres, as far as they are"
@@ -217,25 +217,32 @@ private:
 
   double backdrop_rotate_deg() const { return shown_.scene.environment ? shown_.scene.environment->rotate_deg : 0; }
 
-  /// That of the renderer, with the caustics that photons and spheres say together.
-  std::shared_ptr<const job::Picture> mixed_picture()
+  /// What the renderer sees. With photons: caustics by these and by spheres together, and no layer with the noise of a single sample.
+  std::shared_ptr<const job::Picture> picture()
   {
-    const std::shared_ptr<const job::Picture> seen = renderer_->picture();
-    if (!photons_ || photons_->rounds() < 2) return seen;
-    const auto of = [](const job::Picture& picture) -> const std::vector<float>& {
-      return std::ranges::find(picture.layers, "caustic", &job::Layer::name)->rgb;
-    };
-    photons_->set_estimate(caustics_ ? of(*seen) : std::vector<float>());
-    const std::shared_ptr<const job::Picture> sent = photons_->snapshot().picture;
-    auto mixed = std::make_shared<job::Picture>(*seen);
-    std::vector<float>& caustic = tracing::layer_of(*mixed, "caustic").rgb;
-    for (std::size_t i = 0; i < mixed->rgb.size(); ++i) {
-      mixed->rgb[i] += of(*sent)[i] - caustic[i];
-      caustic[i] = of(*sent)[i];
+    std::vector<Renderer::Layer> seen = renderer_->layers();
+    Renderer::Layer &direct = seen[1], &caustic = seen[2];
+    const Renderer::Layer smooth = std::move(seen[3]);
+    seen.erase(seen.begin() + 3);
+    if (refines() && direct.draw.empty()) direct.rgb = smooth.rgb;
+    if (photons_ && photons_->rounds() >= 2) {
+      photons_->smooth(direct.rgb, direct.draw, smooth.rgb);
+      photons_->set_estimate(caustics_ ? std::move(caustic.rgb) : std::vector<float>());
+      const std::shared_ptr<const job::Picture> sent = photons_->snapshot().picture;
+      caustic = {"caustic", sent->layers.front().rgb, sent->error_draw};
     }
-    if (sent->error_draw.empty()) mixed->error_draw.clear();
-    for (std::size_t i = 0; i < mixed->error_draw.size(); ++i) mixed->error_draw[i] += sent->error_draw[i];
-    return mixed;
+    auto picture = std::make_shared<job::Picture>();
+    picture->width = width_;
+    picture->height = height_;
+    picture->rgb.resize(caustic.rgb.size());
+    if (estimates_error() && std::ranges::none_of(seen, [](const Renderer::Layer& layer) { return layer.draw.empty(); }))
+      picture->error_draw.resize(caustic.rgb.size());
+    for (Renderer::Layer& layer : seen) {
+      std::ranges::transform(picture->rgb, layer.rgb, picture->rgb.begin(), std::plus());
+      if (!picture->error_draw.empty()) std::ranges::transform(picture->error_draw, layer.draw, picture->error_draw.begin(), std::plus());
+      picture->layers.push_back({layer.name, std::move(layer.rgb)});
+    }
+    return picture;
   }
 
   void state_of_picture(tracing::State& state)

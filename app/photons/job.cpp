@@ -181,6 +181,10 @@ public:
   }
 
   void set_estimate(std::vector<float> caustics) override { estimate_ = std::move(caustics); }
+  void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) override
+  {
+    if (smoothing_) smoothing_->spread(rgb, error_draw, estimate);
+  }
   void set_white(double white) override { world_.white = white; }
   std::int64_t rounds() const override { return static_cast<std::int64_t>(photon_rounds()); }
 

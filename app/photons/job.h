@@ -12,6 +12,7 @@
 #include "tracing/state.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace nephroid::photons {
@@ -36,6 +37,8 @@ public:
   /// What the layer "caustic" is as somebody else knows it, without noise but not quite right: [pixel][3], over the preset's white. From
   /// now on it is mixed with what photons say (mixture.h). Empty: there is none.
   virtual void set_estimate(std::vector<float> caustics) = 0;
+  /// Smoothing::spread of light on the same surfaces. Where the run smooths nothing, nothing changes.
+  virtual void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) = 0;
   /// Of pictures from now on. While estimates are of another one there must be none.
   virtual void set_white(double white) = 0;
   /// Of photons that are splatted, complete ones: Settings::rounds a pass.

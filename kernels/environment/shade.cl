@@ -6,15 +6,16 @@
 #include "kernels/tracing/background.h"
 #include "kernels/tracing/eye_path.h"
 
-// 1: the environment lights surfaces by its smooth part, without shadows.
+// 1: the direct layer is the smooth one.
 #ifndef NEPHROID_COARSE
 #define NEPHROID_COARSE 0
 #endif
 
-#define LAYERS 3
+#define LAYERS 4
 #define LAYER_BACKGROUND 0
 #define LAYER_DIRECT 1
 #define LAYER_CAUSTIC 2
+#define LAYER_SMOOTH 3 // direct light without noise: the environment lights surfaces by its smooth part, without shadows
 
 // A part of the expected distance, and of a texel's width, by which a receiver's distance may differ from what it should be were the
 // surface flat there.
@@ -66,11 +67,11 @@ static inline float3 reflected_colour(__global const float4* reflected_rgb, int 
   return rgb.x * of[0].xyz + rgb.y * of[1].xyz + rgb.z * of[2].xyz;
 }
 
-// Radiance of a surface by what reaches it unbent, linear sRGB. lit_rgb: [row of the lights' tables][reflector]. sequence: of the numbers
+// Radiance of a surface by what reaches it unbent, linear sRGB; *smooth: of the layer smooth. lit_rgb: [row of the lights' tables][reflector]. sequence: of the numbers
 // that places in the environment are drawn by, of which a pass takes one.
 static inline float3 direct_radiance(const World* world, const DeviceEnd* end, __global const float4* lit_rgb,
                                      __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit, uint2 seed,
-                                     uint pass, uint sequence)
+                                     uint pass, uint sequence, float3* smooth)
 {
   const int reflector = as_int(end->shading.w);
   const uint primitive = as_uint(end->geometric.w);
@@ -81,20 +82,23 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
   surface.shading = end->shading.xyz;
   Path path;
   path.direction = -surface.geometric; // all that is asked of the path is on which side it arrives
-  float3 sum = (float3)(0.0f);
+  float3 sampled = (float3)(0.0f), sum = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
     __global const float4* row = lit_rgb + l * world->reflector_count + reflector;
     if (is_of_environment(world, l)) {
-#if NEPHROID_COARSE
       sum += reflected_colour(reflected_rgb, reflector, smooth_irradiance(irradiance, surface.shading));
-#else
+#if !NEPHROID_COARSE
       const float3 rgb = power_unit * sky_irradiance(world, l, &path, &surface, primitive, seed, pass, 1u, sequence);
-      sum += rgb.x * row[0].xyz + rgb.y * row[world->reflector_count].xyz + rgb.z * row[2 * world->reflector_count].xyz;
+      sampled += rgb.x * row[0].xyz + rgb.y * row[world->reflector_count].xyz + rgb.z * row[2 * world->reflector_count].xyz;
 #endif
-    } else
-      sum += row->xyz * (power_unit * irradiance_of(world, l, &path, &surface, primitive, seed, pass, sequence));
+    } else {
+      const float3 lamp = row->xyz * (power_unit * irradiance_of(world, l, &path, &surface, primitive, seed, pass, sequence));
+      sampled += lamp;
+      sum += lamp;
+    }
   }
-  return sum / PI_F;
+  *smooth = sum / PI_F;
+  return NEPHROID_COARSE ? *smooth : sampled / PI_F;
 }
 
 // Adds to the sums of the pixels of each square, or begins them anew. sums: [layer][pixel][3].
@@ -111,14 +115,16 @@ __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global co
   const uint item = first + index;
   const int columns = (width + block - 1) / block, column = (int)item % columns * block, row = (int)item / columns * block;
   const uint pixel = (uint)(row * width + column);
-  float3 layers[LAYERS] = {(float3)(0.0f), (float3)(0.0f), (float3)(0.0f)};
+  float3 layers[LAYERS] = {(float3)(0.0f), (float3)(0.0f), (float3)(0.0f), (float3)(0.0f)};
   for (uint i = 0; i < ENDS_OF_PIXEL; ++i) {
     const DeviceEnd end = ends[ENDS_OF_PIXEL * item + i];
     const float3 throughput = end.throughput.xyz;
     if (end.throughput.w == (float)END_SKY) layers[LAYER_BACKGROUND] += throughput * (radiance * background_rgb(&background, end.place.xyz));
     if (end.throughput.w != (float)END_SURFACE) continue;
+    float3 smooth;
     layers[LAYER_DIRECT] += throughput * direct_radiance(&world, &end, lit_rgb, reflected_rgb, irradiance, power_unit, seed,
-                                                         pass, pixel * ENDS_OF_PIXEL + i);
+                                                         pass, pixel * ENDS_OF_PIXEL + i, &smooth);
+    layers[LAYER_SMOOTH] += throughput * smooth;
     layers[LAYER_CAUSTIC] += throughput * reflected_colour(reflected_rgb, as_int(end.shading.w), caustic_irradiance(&receivers, &end)) / PI_F;
   }
   const size_t pixels = (size_t)width * (size_t)height;

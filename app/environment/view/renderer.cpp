@@ -8,14 +8,13 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <string_view>
 
 namespace nephroid::environment {
 namespace {
 
 constexpr int block_of_coarse = 4;                          ///< pixels across and down a square that has one path
 constexpr int coarse_receivers = 128, fine_receivers = 512; ///< texels along an edge of a face
-constexpr std::array<const char*, 3> layer_names{"background", "direct", "caustic"};
+constexpr std::array<const char*, 4> layer_names{"background", "direct", "caustic", "smooth"};
 
 std::size_t ends_of_pixel(const RenderTask& task) { return task.coloured ? 4 : 2; } // ENDS_OF_PIXEL
 
@@ -27,7 +26,7 @@ int coarse_side(int side) { return std::max(side / 4, 8); }
 
 std::uint64_t Renderer::bytes_a_pixel(const RenderTask& task)
 {
-  return ends_of_pixel(task) * sizeof(shared::DeviceEnd) + 2 * 3 * sizeof(float) * static_cast<std::uint64_t>(layers(task));
+  return ends_of_pixel(task) * sizeof(shared::DeviceEnd) + 2 * 3 * sizeof(float) * (layer_names.size() + (task.has_medium ? 1 : 0));
 }
 
 std::uint64_t Renderer::receiver_bytes() { return Receivers::bytes(coarse_receivers) + Receivers::bytes(fine_receivers); }
@@ -261,39 +260,32 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
               {"count", count}});
 }
 
-std::shared_ptr<const job::Picture> Renderer::picture() const
+std::vector<Renderer::Layer> Renderer::layers() const
 {
-  auto picture = std::make_shared<job::Picture>();
-  picture->width = task_.tables.camera.width;
-  picture->height = task_.tables.camera.height;
-  const auto count = static_cast<std::size_t>(pixels());
-  picture->rgb.resize(3 * count);
-  if (pass_ >= 2) picture->error_draw.resize(3 * count);
-  // The pixels before these have had the pass in hand as well. The coarse picture is one sample.
-  const std::size_t shaded = shaded_ ? count : static_cast<std::size_t>(shade_steps_.done()),
-                    scattered = static_cast<std::size_t>(volume_steps_.done());
-  const auto add = [&](const char* name, const std::array<compute::Buffer<float>, 2>& sums, std::size_t first, std::size_t ahead) {
-    std::array<std::vector<float>, 2> halves{std::vector<float>(3 * count), std::vector<float>(3 * count)};
+  const std::size_t values = 3 * static_cast<std::size_t>(pixels());
+  const auto layer = [&](const char* name, const std::array<compute::Buffer<float>, 2>& sums, std::size_t first, std::size_t ahead) {
+    std::array<std::vector<float>, 2> halves{std::vector<float>(values), std::vector<float>(values)};
     for (const std::size_t h : {0, 1})
-      if (pass_ > 0 || h == 0) sums[h].RawBuffer::read(halves[h].data(), 3 * count * sizeof(float), first * sizeof(float));
-    std::vector<float>& rgb = picture->layers.emplace_back(job::Layer{name, std::vector<float>(3 * count)}).rgb;
-    const bool has_draw = !picture->error_draw.empty() && std::string_view(name) != "caustic";
-    for_ranges(3 * count, 1 << 14, [&](std::size_t, const Range& range) {
+      if (pass_ > 0 || h == 0) sums[h].RawBuffer::read(halves[h].data(), values * sizeof(float), first * sizeof(float));
+    Layer result{name, std::vector<float>(values), std::vector<float>(pass_ >= 2 ? values : 0)};
+    for_ranges(values, 1 << 14, [&](std::size_t, const Range& range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {
         std::array<double, 2> samples{static_cast<double>((pass_ + 1) / 2), static_cast<double>(pass_ / 2)};
+        // The pixels before these have had the pass in hand as well. The coarse picture is one sample.
         if (i < 3 * ahead || pass_ == 0) samples[half()] = static_cast<double>(pass_ / 2 + 1);
-        const double all = samples[0] + samples[1];
-        picture->rgb[i] += rgb[i] =
-            static_cast<float>((static_cast<double>(halves[0][i]) + (samples[1] > 0 ? halves[1][i] : 0)) / (white_ * all));
-        if (has_draw)
-          picture->error_draw[i] += static_cast<float>((halves[0][i] / samples[0] - halves[1][i] / samples[1]) *
-                                                       std::sqrt(samples[0] * samples[1]) / (white_ * all));
+        const double all = samples[0] + samples[1], a = halves[0][i], b = samples[1] > 0 ? halves[1][i] : 0;
+        result.rgb[i] = static_cast<float>((a + b) / (white_ * all));
+        if (pass_ >= 2)
+          result.draw[i] = static_cast<float>((a / samples[0] - b / samples[1]) * std::sqrt(samples[0] * samples[1]) / (white_ * all));
       }
     });
+    return result;
   };
-  for (std::size_t l = 0; l < layer_names.size(); ++l) add(layer_names[l], sums_, 3 * count * l, shaded);
-  if (task_.has_medium) add("volume", volume_sums_, 0, scattered);
-  return picture;
+  const std::size_t shaded = shaded_ ? values / 3 : static_cast<std::size_t>(shade_steps_.done());
+  std::vector<Layer> result;
+  for (std::size_t l = 0; l < layer_names.size(); ++l) result.push_back(layer(layer_names[l], sums_, values * l, shaded));
+  if (task_.has_medium) result.push_back(layer("volume", volume_sums_, 0, static_cast<std::size_t>(volume_steps_.done())));
+  return result;
 }
 
 void Renderer::set_camera(const scene::Camera& camera, const Place& where)

@@ -38,9 +38,14 @@ public:
   void step();
   std::int64_t passes() const { return pass_; } ///< complete ones
   double part() const;                          ///< of the pass in hand, 0..1
-  /// Layers background, direct, caustic and, in a medium, volume: the mean of all samples so far. error_draw: of all but the layer caustic,
-  /// whose light comes from spheres.
-  std::shared_ptr<const job::Picture> picture() const;
+  /// Means of all samples so far, linear sRGB over white, [pixel][3].
+  struct Layer {
+    const char* name = "";
+    std::vector<float> rgb;
+    std::vector<float> draw; ///< of its error, as job::Picture::error_draw; empty until there are two passes
+  };
+  /// background, direct, caustic, smooth and, in a medium, volume. smooth: the layer direct without noise and without shadows.
+  std::vector<Layer> layers() const;
 
   /// Each begins anew with a coarse picture. where: FILE#/scene/camera.
   void set_camera(const scene::Camera& camera, const Place& where);
