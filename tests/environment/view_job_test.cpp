@@ -26,7 +26,6 @@ protected:
     p.scene.environment.emplace();
     p.scene.environment->file = (cache.path() / "map.exr").string();
     p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};
-    environment::settings(p).own_directions = 1;
     look(p, {2, 2, 4}, {0, -0.5, 0}, 50);
     return p;
   }
@@ -80,7 +79,7 @@ TEST_F(EnvironmentViewJob, ItsFirstPictureHasNoNoise)
   }
 }
 
-// Over the bake, a first pass that is thrown away, the lamp's own direction and the passes; then without the bake, which is read.
+// Over the bake and the passes; then without the bake, which is read.
 TEST_F(EnvironmentViewJob, ItsFractionRisesWithAllItDoes)
 {
   for (const char* what : {"baked", "read"}) {
@@ -251,7 +250,7 @@ TEST_F(EnvironmentViewJob, AnotherWhiteGoesOn)
   expect_same(run(*job), run(brighter), "brighter");
 }
 
-// Then only the lamp is left, which passes do not draw.
+// Then only the lamp is left.
 TEST_F(EnvironmentViewJob, AdoptsAThresholdThatDropsTheSky)
 {
   const preset::Preset p = lit();
