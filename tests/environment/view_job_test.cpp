@@ -96,14 +96,15 @@ TEST_F(EnvironmentViewJob, ItsFractionRisesWithAllItDoes)
   }
 }
 
-// Wherever it is saved: before anything is seen, among the pixels that are seen, cast, shaded.
+// Wherever it is saved: before anything is seen, among the pixels that are seen, cast, shaded, and have the light of the air.
 TEST_F(EnvironmentViewJob, GoesOnWithTheSameBits)
 {
-  const preset::Preset p = lit();
+  preset::Preset p = lit();
+  environment::settings(p).extinction = 0.1;
   const job::Snapshot whole = run(p);
   const auto begun = job_of(p);
   for (int step = 0; !begun->finished(); ++step) {
-    // A pass has about five steps: each kind once, of either pass.
+    // A pass has about eight steps: each kind once, of either pass.
     if (step % 3 == 1) {
       const auto bytes = saved(*begun);
       const auto resumed = job_of(p);
