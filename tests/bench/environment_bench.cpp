@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Engine 2 while something moves: from an edit of the preset to the picture that shows it, as the window has it (Job::adopt and a
-// snapshot), and how long it takes then until the first full picture, but for own directions, which are baked while it stands still. The
-// bunny at 512 x 512 with 24 lights and an occluder; NEPHROID_BENCH_PRESET names another preset. Its bake is read where there is one.
+// snapshot), and how long it takes then until the first full picture. The bunny at 512 x 512 with 24 lights and an occluder;
+// NEPHROID_BENCH_PRESET names another preset. Its bake is read where there is one.
 #include "environment/engine.h"
 #include "preset/read.h"
 #include "tests/support/standard.h"
@@ -15,8 +15,8 @@ using namespace nephroid;
 preset::Preset benched_preset()
 {
   const char* name = std::getenv("NEPHROID_BENCH_PRESET");
-  preset::Preset made = preset::read_preset(name ? name : NEPHROID_SOURCE_DIR "/presets/environment/bunny.json",
-                                            {"scene.camera.resolution=[512, 512]", "environment.own_directions=0"});
+  preset::Preset made =
+      preset::read_preset(name ? name : NEPHROID_SOURCE_DIR "/presets/environment/bunny.json", {"scene.camera.resolution=[512, 512]"});
   if (name) return made;
   preset::Object occluder = made.scene.objects.back();
   occluder.name = "occluder";

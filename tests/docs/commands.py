@@ -34,7 +34,7 @@ ROOT = Path(__file__).resolve().parents[2]
 CUT = ["--set", "scene.camera.resolution=[64,64]", "--set", "reference=null"]
 CUT_OF_ENGINE = {"spectral": ["--set", "spectral.photons_per_pass=1024"], "inverse": ["--set", "inverse.facets=[32,32]"],
                  "environment": ["--set", "environment.photons=1024", "--set", "environment.resolution=16", "--set", "environment.spheres=4",
-                                 "--set", "environment.lights=6", "--set", "environment.own_directions=0"]}
+                                 "--set", "environment.lights=6"]}
 MOST_PASSES = 2
 LONGEST = 240  # seconds that one command may take, on a busy machine
 

@@ -37,7 +37,7 @@ Bake made_bake(int side, int channels, const std::vector<double>& radii, const O
 class Cast {
 public:
   Cast(const Bake& bake, int size, Technique technique = Technique::eight_sets)
-      : caustics(bake, test::bake_context(), 0, {}, technique), size_(size),
+      : caustics(bake, test::bake_context(), technique), size_(size),
         count_(6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size)), list_(test::bake_context(), "list", count_),
         distances_(test::bake_context(), "distances", count_), normals_(test::bake_context(), "normals", count_),
         sums_(test::bake_context(), "caustics", 3 * count_)

@@ -42,10 +42,9 @@ std::string note(const preset::Preset& p)
 
 const std::string floor_below = facing_quad("floor", {0, -1.5, 0}, {0, 1, 0}, 40);
 
-/// The ball over a floor. All light is put together from the baked directions.
-preset::Preset floor_scene(const std::string& others = floor_below, preset::Overrides more = {})
+/// The ball over a floor.
+preset::Preset floor_scene(const std::string& others = floor_below, const preset::Overrides& more = {})
 {
-  more.emplace_back("environment.own_directions=0");
   preset::Preset p = ball_and(others, more);
   p.source = "p.json";
   look(p, {2.5, 1.5, 3}, {0, -1, 0}, 50);

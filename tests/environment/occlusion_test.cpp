@@ -136,6 +136,15 @@ TEST(Occlusion, ABallHidesItsSolidAngle)
     }
 }
 
+// Two balls leave a belt 1.6 degrees wide: a few cells of each light.
+TEST(Occlusion, OfABeltBetweenTwoBallsItsSolidAngleIsSeen)
+{
+  Sky sky = even_sky();
+  const double height = 2.0002, belt = 4 * pi * std::sin(std::acos(2 / height));
+  const double seen = sum_y(sky.seen_past(ball({0, height, 0}, 2) + ", " + ball({0, -height, 0}, 2)));
+  EXPECT_NEAR(seen, belt, 0.3 * belt);
+}
+
 /// Of a triangle, by van Oosterom and Strackee 1983.
 double triangle_sr(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 {

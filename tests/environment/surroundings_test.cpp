@@ -185,11 +185,6 @@ TEST(SurfacePoints, SeeACardHideTheSunLittleByLittle)
     for (const VisibleLight& light : seen) flux += light.flux.y;
     const double expected = std::clamp((1 - edge) / 2, 0.0, 1.0);
     EXPECT_NEAR(flux / lights.total_flux.y, expected, 0.02) << edge;
-    for (std::uint32_t pass = 1; pass < 4; ++pass) { // each has all of the light that is seen
-      double drawn = 0;
-      for (const VisibleLight& light : occlusion.drawn_lights(pass)) drawn += light.flux.y;
-      EXPECT_NEAR(drawn, flux, 0.002 * lights.total_flux.y) << edge;
-    }
   }
 }
 

@@ -26,7 +26,6 @@ protected:
     p.scene.environment.emplace();
     p.scene.environment->file = (cache.path() / "map.exr").string();
     p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};
-    environment::settings(p).own_directions = 1;
     look(p, {2, 2, 4}, {0, -0.5, 0}, 50);
     return p;
   }
@@ -80,7 +79,7 @@ TEST_F(EnvironmentViewJob, ItsFirstPictureHasNoNoise)
   }
 }
 
-// Over the bake, a first pass that is thrown away, the lamp's own direction and the passes; then without the bake, which is read.
+// Over the bake and the passes; then without the bake, which is read.
 TEST_F(EnvironmentViewJob, ItsFractionRisesWithAllItDoes)
 {
   for (const char* what : {"baked", "read"}) {
@@ -97,14 +96,15 @@ TEST_F(EnvironmentViewJob, ItsFractionRisesWithAllItDoes)
   }
 }
 
-// Wherever it is saved: before anything is seen, among the pixels that are seen, cast, shaded.
+// Wherever it is saved: before anything is seen, among the pixels that are seen, cast, shaded, and have the light of the air.
 TEST_F(EnvironmentViewJob, GoesOnWithTheSameBits)
 {
-  const preset::Preset p = lit();
+  preset::Preset p = lit();
+  environment::settings(p).extinction = 0.1;
   const job::Snapshot whole = run(p);
   const auto begun = job_of(p);
   for (int step = 0; !begun->finished(); ++step) {
-    // A pass has about five steps: each kind once, of either pass.
+    // A pass has about eight steps: each kind once, of either pass.
     if (step % 3 == 1) {
       const auto bytes = saved(*begun);
       const auto resumed = job_of(p);
@@ -251,7 +251,7 @@ TEST_F(EnvironmentViewJob, AnotherWhiteGoesOn)
   expect_same(run(*job), run(brighter), "brighter");
 }
 
-// Then only the lamp is left, which passes do not draw.
+// Then only the lamp is left.
 TEST_F(EnvironmentViewJob, AdoptsAThresholdThatDropsTheSky)
 {
   const preset::Preset p = lit();

@@ -83,18 +83,6 @@ TEST_F(EnvironmentView, AWhiteFurnaceStaysWhite)
   }
 }
 
-// With passes that take other directions of each light's region the gaps are filled, even between as few lights.
-TEST_F(EnvironmentView, PassesFillTheGapsBetweenLights)
-{
-  preset::Preset p = furnace_scene({"scene.camera.resolution=[8, 8]", "environment.lights=8", "stop.passes=24", "leave_out=false"});
-  const Furnace f = furnace(*job_of(p), p);
-  double most = 0;
-  for (const double caustic : f.caustic) most = std::max(most, std::abs(caustic - hidden));
-  fmt::print("q = 8, 24 passes: caustic {:.4f} ({:.4f}); a receiver {:.2f} % off at most\n", mean_of(f.caustic), hidden, 100 * most);
-  EXPECT_NEAR(mean_of(f.caustic), hidden, 0.003);
-  EXPECT_LT(most, 0.025);
-}
-
 TEST_F(EnvironmentView, DispersionLeavesAFurnaceNeutral)
 {
   preset::Preset p = furnace_scene({R"(scene.materials.glass.dispersion={"type": "cauchy", "coefficients": [1.45, 0.02]})"});

@@ -87,14 +87,13 @@ def head(title, columns):
     print(f"\n{title}\n\n| | " + " | ".join(columns) + " |\n|---|" + "---|" * len(columns), flush=True)
 
 
-# A light keeps its one direction, and all light is put together from the baked grid of directions, as in the thesis.
-ONE = {"environment.refine": False, "environment.own_directions": 0}
+# Spheres alone, as in the thesis.
+ONE = {"environment.refine": False}
 TABLES = {
     "lights": [({**ONE, "environment.lights": q, "environment.segmentation": way}, f"{way}, q = {q}")
                for way in ("thesis", "variance") for q in (8, 16, 24, 32, 40, 48, 56, 64)],
     "spheres": [({**ONE, "environment.spheres": s, "environment.radii": way}, f"{way}, s = {s}") for way in ("quadratic", "uniform") for s in (8, 16, 32)],
-    "directions": [({**ONE, "environment.directions": n}, f"{n} directions") for n in (26, 98)]
-                  + [({"environment.refine": False, "environment.own_directions": n}, f"{n} own directions") for n in (1, 4)],
+    "directions": [({**ONE, "environment.directions": n}, f"{n} directions") for n in (26, 98)],
     "refining": [({"stop.passes": n}, f"refined, {n} passes") for n in (2, 4, 16, 64)],
 }
 BINS = (0, 1, 2, 5, 10, 20, 40, 60)  # of CIELAB's distance
@@ -109,7 +108,6 @@ def scenes(bench, presets):
         mask = bench.mask(name, ours)
         row(f"{name}: another reference", bench.errors(second, first, mask))
         row(f"{name}: as in the thesis", bench.errors(thesis, first, mask))
-        row(f"{name}: ours without own directions", bench.errors(bench.ours(name, {"environment.own_directions": 0}), first, mask))
         row(f"{name}: ours", bench.errors(ours, first, mask))
         sheet(bench, name, ours, first, mask)
 
@@ -178,13 +176,12 @@ def photons(bench, preset):
 
     def measure(label, run):
         seconds = json.loads((run / "run.json").read_text())["phase_seconds"]
-        row(label, [sum(seconds.values()) - seconds.get("caustics", 0) - seconds.get("bake", 0), seconds.get("bake"), *bench.errors(run, truth, mask)])
+        row(label, [sum(seconds.values()) - seconds.get("caustics", 0) - seconds.get("bake", 0), *bench.errors(run, truth, mask)])
 
-    head(f"photons: {preset}, {bench.size} x {bench.size}", ["seconds", "seconds of own directions", *METRICS])
+    head(f"photons: {preset}, {bench.size} x {bench.size}", ["seconds", *METRICS])
     for seconds in (0.25, 1, 4, 16, 64):
         measure(f"photons, {seconds} s", bench.run(preset, f"{preset}-photons-{seconds}", {**TRUTH, "seed": 201}, "--seconds", seconds))
     for passes in (1, 2, 4, 8, 16):
-        measure(f"ours without own directions, {passes} passes", bench.run(preset, f"{preset}-grid-{passes}", {"environment.own_directions": 0, "stop.passes": passes}))
         measure(f"ours, {passes} passes", bench.run(preset, f"{preset}-ours-{passes}", {"stop.passes": passes}))
 
 

@@ -4,8 +4,7 @@
 
     tests/experiments/environment_films.py PROGRAM OUT [turning] [card]
 
-turning: the sky turns about a glass bunny, 120 frames; 12 pairs of neighbouring frames are compared, of `ours` 4, for which a sun is baked in each frame. All
-frames are rendered of `refined` alone. OUT/turning-sheet.png: every fifth of them.
+turning: the sky turns about a glass bunny, 120 frames; 12 pairs of neighbouring frames are compared. All frames are rendered of `ours` alone. OUT/turning-sheet.png: every fifth of them.
 card: a card passes between the sun and a ball, 24 frames, all compared. OUT/card-sheet.png: caustics of ours over the reference's.
 Frames that are in OUT are not made again. Needs numpy and ImageMagick.
 """
@@ -18,11 +17,10 @@ from environment import ONE, PRESETS, SEEDS, TRUTH, Bench, head, name_of, row
 from layers import read_layer, read_mask, side_by_side, write_png
 
 THESIS = {**ONE, "environment.segmentation": "thesis"}
-GRID = {"environment.own_directions": 0}
-WAYS = {"as in the thesis": THESIS, "as in the thesis, 98 directions": {**THESIS, "environment.directions": 98}, "variance, one direction a light": ONE,
-        "refined": GRID, "refined, 98 directions": {**GRID, "environment.directions": 98}, "ours": {"environment.own_directions": 1}}  # the sky has one sun
+WAYS = {"as in the thesis": THESIS, "as in the thesis, 98 directions": {**THESIS, "environment.directions": 98}, "variance, spheres alone": ONE,
+        "ours": {}, "ours, 98 directions": {"environment.directions": 98}}
 OURS = "ours"
-PAIRS, FEW = range(0, 120, 10), range(0, 120, 30)
+PAIRS = range(0, 120, 10)
 
 
 def rms(picture):
@@ -85,16 +83,15 @@ def turning(bench, passes, reference_passes):
     print(f"\nturning: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: {np.sqrt(noise) / level:.2g} of its root mean square.")
     head("change of the caustic layer in 3 degrees, parts of the reference's", ["change", "largest", "change that is wrong", "light, mean", "light, spread"])
     for label, settings in WAYS.items():
-        pairs = FEW if label == OURS else PAIRS
-        film = Film(bench, "turning-sky", name_of(f"turning-{bench.size}", settings), settings, both(pairs), passes)
-        own, made = truth.changes(pairs), film.changes(pairs)
+        film = Film(bench, "turning-sky", name_of(f"turning-{bench.size}", settings), settings, both(PAIRS), passes)
+        own, made = truth.changes(PAIRS), film.changes(PAIRS)
         whole = quadratic([size(change, 2 * noise) for change in own])
-        light = film.light() / np.array([truth.pixels[k].mean() for k in both(pairs)])
+        light = film.light() / truth.light()
         row(label, [quadratic([rms(change) for change in made]) / whole, max(map(rms, made)) / max(size(change, 2 * noise) for change in own),
                     quadratic([size(ours - theirs, 2 * noise) for ours, theirs in zip(made, own)]) / whole, light.mean(), light.std()])
-    film = Film(bench, "turning-sky", name_of(f"turning-{bench.size}", GRID), GRID, range(120), passes)
+    film = Film(bench, "turning-sky", f"turning-{bench.size}", WAYS[OURS], range(120), passes)
     steps = [rms(change) / level for change in film.changes(range(119))]
-    print(f"\nrefined, all 119 steps, parts of the reference's root mean square: median {np.median(steps):.3g}, largest {max(steps):.3g}, "
+    print(f"\nours, all 119 steps, parts of the reference's root mean square: median {np.median(steps):.3g}, largest {max(steps):.3g}, "
           f"smallest {min(steps):.3g}; the largest ratio of neighbouring steps {max(max(a / b, b / a) for a, b in zip(steps, steps[1:])):.3g}")
     side_by_side([film.path(k).with_suffix(".png") for k in range(0, 120, 5)], 8, bench.size, bench.out / "turning-sheet.png")
 
@@ -104,7 +101,7 @@ def card(bench, passes, reference_passes):
     truth = reference(bench, "passing-card", SEEDS[0], frames, reference_passes)
     noise = noise_of(truth, reference(bench, "passing-card", SEEDS[1], range(7, 10), reference_passes))
     films = {"reference": truth}
-    for way in ("as in the thesis", "refined", OURS):
+    for way in ("as in the thesis", OURS):
         films[way] = Film(bench, "passing-card", name_of(f"card-{bench.size}", WAYS[way]), WAYS[way], frames, passes)
     print(f"\ncard: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: {np.sqrt(noise) / rms(truth.pixels[0]):.2g} of its "
           "root mean square in frame 0.")
