@@ -60,10 +60,7 @@ inline void describe(preset::Fields& v, Settings& s)
   v.field("segmentation", "How the environment is cut into lights.", s.segmentation);
   v.field("threshold", "A region with no more than this part of the environment's light is no light of its own.", s.threshold,
           {.bounds = within(0, 1)});
-  v.field("refine",
-          "Whether passes take other directions of each light's region, so that the picture goes towards that of the whole "
-          "environment; false: a light keeps its one direction, as in the thesis.",
-          s.refine);
+  v.field("refine", "Photons join the spheres, and the picture goes on to the truth; false: spheres alone, as in the thesis.", s.refine);
   v.field("technique",
           "How caustics on surfaces are put together from spheres. All but the first are there for the comparison of table 3.3: "
           "they let light come from the object's middle.",

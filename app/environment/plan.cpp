@@ -74,6 +74,19 @@ std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTa
   return passes;
 }
 
+/// Whether photons join, and how.
+std::vector<plan::Pass> photon_passes(const Settings& s, const photons::RunPlan* photons)
+{
+  const char* const field = "/environment/refine";
+  if (!s.refine) return {{"photons", false, "environment.refine is false: spheres alone, as in the thesis", field, true}};
+  const auto row = [&](std::string_view name) { return *std::ranges::find(photons->passes, name, &plan::Pass::name); };
+  const plan::Pass sent = row("photons");
+  if (!sent.runs) return {{"photons", false, s.cast ? sent.reason : "environment.cast is false"}};
+  const plan::Pass maps = row("photon maps");
+  return {{"photons", true, sent.reason + ", mixed with what the spheres say as their two halves say is best", field, true},
+          {"photon maps", maps.runs, maps.reason}};
+}
+
 std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake, const Settings& settings)
 {
   const scene::Scene& s = *render.scene;
@@ -120,10 +133,19 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   plan.bakes = fault.has_value();
   plan.passes = {bake_pass(plan, s, fault), colours_pass(task)};
   for (plan::Pass& pass : view_passes(preset, plan.render.get())) plan.passes.push_back(std::move(pass));
+  if (plan.render)
+    for (plan::Pass& pass : photon_passes(s, plan.photons ? &*plan.photons : nullptr)) plan.passes.push_back(std::move(pass));
   for (plan::Pass& pass : code_passes(preset, task)) plan.passes.push_back(std::move(pass));
   plan.buffers = buffers_of(task, scene, plan.bakes);
   if (plan.render)
     for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task, s)) plan.buffers.push_back(std::move(buffer));
+  if (plan.photons && plan.photons->layers > 0)
+    for (const bool on_host : {false, true}) {
+      plan::PlannedBuffer all{on_host ? "photons (host)" : "photons", 0, on_host};
+      for (const plan::PlannedBuffer& buffer : plan.photons->buffers)
+        if (buffer.on_host == on_host) all.bytes += buffer.bytes;
+      plan.buffers.push_back(std::move(all));
+    }
   plan.defines = task.defines;
   plan.layers = plan.render ? Renderer::layers(*plan.render) : 1;
   plan.smaller = "choose fewer environment.directions or environment.spheres, or a smaller environment.resolution";

@@ -25,7 +25,7 @@ struct Settings {
   int lights = 24;                    ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
-  bool refine = true;      ///< each pass takes other directions of each light's region
+  bool refine = true;      ///< photons join the spheres
   Technique technique = Technique::eight_sets;
   bool cast = true; ///< caustics on surfaces
   enum class Phase { henyey_greenstein, rayleigh };

@@ -40,17 +40,12 @@ inline std::string facing_quad(const std::string& name, const glm::dvec3& place,
                      name, side, side, place.x, place.y, place.z, about_x, about_z);
 }
 
-/// The ball and others, with few photons, under no light yet; walls send back all light.
+/// The ball and others by their spheres alone, with few photons, under no light yet; walls send back all light.
 inline preset::Preset ball_and(const std::string& others, const preset::Overrides& more = {})
 {
-  preset::Overrides overrides{"environment.resolution=32",
-                              "environment.spheres=8",
-                              "environment.photons=20000",
-                              "environment.radii=uniform",
-                              "environment.reach=2",
-                              "environment.directions=26",
-                              "stop.passes=4",
-                              "scene.materials.wall.reflectance=1",
+  preset::Overrides overrides{"environment.resolution=32",       "environment.spheres=8", "environment.photons=20000",
+                              "environment.radii=uniform",       "environment.reach=2",   "environment.directions=26",
+                              "environment.refine=false",        "stop.passes=4",         "scene.materials.wall.reflectance=1",
                               "scene.camera.resolution=[16, 16]"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   return bake_preset(glass_ball + (others.empty() ? "" : ", " + others), overrides);

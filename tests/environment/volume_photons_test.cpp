@@ -50,12 +50,13 @@ Picture seen(const preset::Preset& p, const environment::BakeTask& bake_task, co
   environment::RenderTask task = environment::make_render_task(p, scene, scene::build_bvh(scene.geometry), bake_task.caster);
   const double light = task.lamps.at(0).irradiance.y;
   environment::Caustics caustics(bake, bake_context());
-  environment::Renderer renderer(std::move(task), caustics, 1, 1, bake_context());
+  environment::Renderer renderer(std::move(task), 1, 1, bake_context());
+  renderer.set_caustics(caustics);
   while (renderer.passes() < passes) renderer.step();
-  const std::shared_ptr<const job::Picture> picture = renderer.picture();
-  EXPECT_EQ(picture->layers.back().name, "volume");
+  const environment::Renderer::Layer volume = renderer.layers().back();
+  EXPECT_STREQ(volume.name, "volume");
   Picture y;
-  for (std::size_t i = 1; i < picture->rgb.size(); i += 3) y.push_back(picture->layers.back().rgb[i] / light);
+  for (std::size_t i = 1; i < volume.rgb.size(); i += 3) y.push_back(volume.rgb[i] / light);
   return y;
 }
 
