@@ -247,7 +247,7 @@ TEST_F(EnvironmentInput, CountsOutOfRange)
   EXPECT_THAT(refusal({"environment.directions=27"}),
               AllOf(HasSubstr("environment.directions=27: is 27"), HasSubstr("expected 26, 98 or 386")));
   EXPECT_THAT(refusal({"environment.photons=0"}), HasSubstr("from 1 to"));
-  EXPECT_THAT(refusal({"stop.error=1"}), HasSubstr("makes no estimate"));
+  EXPECT_THAT(refusal({"stop.error=1", "environment.refine=false"}), HasSubstr("nothing measures the error"));
   EXPECT_EQ(run(small({"environment.photons=1", "environment.resolution=8"})).progress.work, 26u);
 }
 

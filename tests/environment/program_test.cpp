@@ -75,7 +75,7 @@ protected:
                 {"name": "floor", "shape": {"type": "quad", "size": [30, 1, 30]}, "material": "floor", "transform": {"translate": [0, -1.2, 0]}}],
     "environment": {"type": "constant", "colour": [1, 1, 1], "radiance": 1}
   },
-  "environment": {"directions": 26, "photons": 2000, "spheres": 2, "resolution": 16}
+  "environment": {"directions": 26, "photons": 2000, "spheres": 2, "resolution": 16, "refine": false}
 })");
   }
   Ended run_to(const std::string& name, std::vector<std::string> more) const
