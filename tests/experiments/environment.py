@@ -6,7 +6,7 @@
 
 Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1: how many, by which segmentation),
 spheres (3.2: how many, with which radii), histogram (figure 3.16), directions, refining; techniques (3.3 and figure 3.19: milliseconds, at 512 x 512, where
-kernels have been compiled before and the machine has nothing else to do), photons (error against time, the same). Engine 1 traces photons from every texel of the same environment
+kernels have been compiled before and the machine has nothing else to do), converging (error against time of all scenes, the same). Engine 1 traces photons from every texel of the same environment
 through the same objects: no spheres, no segments. Two of its runs with different seeds tell the noise floor. What is in OUT is not made again. Needs numpy
 and ImageMagick.
 """
@@ -169,31 +169,34 @@ def techniques(bench, preset):
         row(technique, [milliseconds(technique, q, 16) for q in range(8, 65, 8)])
 
 
-def photons(bench, preset):
-    """Error against time, of engine 1's photons and of ours."""
-    truth = bench.reference(preset, SEEDS[0])
+SECONDS = (0.1, 0.25, 0.5, 1, 2, 4, 8, 20)
+
+
+def converging(bench, preset):
+    """Error against time: photons of engine 1, the same smoothed, spheres, ours. Bakes are there before."""
+    truth, other = (bench.reference(preset, seed) for seed in SEEDS)
     mask = bench.mask(preset, truth)
+    bench.ours(preset, {})  # bakes
+    alone = {"spectral.background": False, "seed": 201}
+    ways = {"photons": {**TRUTH, **alone}, "photons, smoothed": {**TRUTH, **alone, "spectral.smoothing": "automatic"},
+            "spheres": {"environment.refine": False}, "ours": {}}
+    head(f"converging: {preset}, {bench.size} x {bench.size}; another reference: " +
+         ", ".join(f"{metric} {error:.3g}" for metric, error in zip(METRICS, bench.errors(other, truth, mask))), ["seconds", *METRICS])
+    for seconds in SECONDS:
+        for way, settings in ways.items():
+            run = bench.run(preset, f"{preset}-{bench.size}-{way.replace(', ', '-')}-{seconds}s", settings, "--seconds", seconds)
+            row(way, [seconds, *bench.errors(run, truth, mask)])
 
-    def measure(label, run):
-        seconds = json.loads((run / "run.json").read_text())["phase_seconds"]
-        row(label, [sum(seconds.values()) - seconds.get("caustics", 0) - seconds.get("bake", 0), *bench.errors(run, truth, mask)])
 
-    head(f"photons: {preset}, {bench.size} x {bench.size}", ["seconds", *METRICS])
-    for seconds in (0.25, 1, 4, 16, 64):
-        measure(f"photons, {seconds} s", bench.run(preset, f"{preset}-photons-{seconds}", {**TRUTH, "seed": 201}, "--seconds", seconds))
-    for passes in (1, 2, 4, 8, 16):
-        measure(f"ours, {passes} passes", bench.run(preset, f"{preset}-ours-{passes}", {"stop.passes": passes}))
-
-
-ALONE = {"histogram": histogram, "techniques": techniques, "photons": photons}
+ALONE = {"histogram": histogram, "techniques": techniques}
 
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("program")
     arguments.add_argument("out")
-    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", "techniques", "photons"], metavar="TABLE")
-    arguments.add_argument("--presets", nargs="+", default=SCENES, help="of `scenes`")
+    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", "techniques", "converging"], metavar="TABLE")
+    arguments.add_argument("--presets", nargs="+", default=SCENES, help="of `scenes` and `converging`")
     arguments.add_argument("--size", type=int, default=192)
     arguments.add_argument("--passes", type=int, default=8)
     arguments.add_argument("--reference-seconds", type=int, default=120)
@@ -202,6 +205,9 @@ def main():
     for name in chosen.tables:
         if name == "scenes":
             scenes(bench, chosen.presets)
+        elif name == "converging":
+            for preset in chosen.presets:
+                converging(bench, preset)
         elif name in ALONE:
             ALONE[name](bench, "bunny")
         else:
