@@ -191,13 +191,14 @@ private:
     return photons_ ? std::min(renderer_->passes(), photons_->progress().step) : renderer_->passes();
   }
 
-  /// Two rounds of photons come before each pass of paths from the eye, so that a first picture of them is there soon, and the others after
-  /// it.
+  /// Two rounds of photons come before each of the first two passes of paths from the eye, for a first picture of both soon: then there are
+  /// two halves of each. Eight follow each later one.
   bool wants_photons() const
   {
     if (!refines() || (asked_for_photons_ && !photons_)) return false;
     if (!photons_) return true;
-    return photons_->rounds() < photon_rounds * renderer_->passes() + 2 + rounds_ahead_ && photons_->progress().step < most_passes();
+    const std::int64_t passes = renderer_->passes(), rounds = std::max(2 * (passes + 1), photon_rounds * (passes - 1) + 2);
+    return photons_->rounds() < rounds + rounds_ahead_ && photons_->progress().step < most_passes();
   }
 
   void send_photons()
