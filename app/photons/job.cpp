@@ -4,6 +4,7 @@
 #include "engine/engine.h"
 #include "photons/relight/layer_film.h"
 #include "photons/sampled_pixels.h"
+#include "photons/sight.h"
 #include "photons/smoothing.h"
 #include "photons/stage.h"
 #include "tracing/film.h"

@@ -5,6 +5,7 @@
 #include "base/summed_area.h"
 #include "photons/mixture.h"
 #include "photons/plan_part.h"
+#include "photons/sight.h"
 #include "tracing/world.h"
 
 #include <fmt/format.h>
@@ -183,10 +184,17 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
   return share;
 }
 
-/// What the pixels show.
+/// What a pixel shows, as far as light may be spread over it.
+struct PixelSight {
+  Sight::Surface surface; ///< the diffuse one at the end of a look, or the first of glass or a mirror
+  int first = -1;         ///< the object that is met first; -1: none
+  bool at_edge = false;   ///< whether a neighbour shows something else: then the pixel may hold light of that
+};
+
+/// Which pixels light may be spread over.
 struct Seeing {
   int width, height;
-  std::span<const Smoothing::Seen> seen; ///< [pixel]
+  std::span<const Smoothing::Level> level; ///< [pixel]
 };
 
 /// Where a pixel's light may go: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step.
@@ -202,7 +210,7 @@ struct Weights {
   std::span<const double> favour;        ///< that a pixel finds in every kernel
 };
 
-bool are_level(const Smoothing::Seen& a, const Smoothing::Seen& b)
+bool are_level(const PixelSight& a, const PixelSight& b)
 {
   if (a.first != b.first || a.surface.object != b.surface.object || a.at_edge != b.at_edge || a.first < 0) return false;
   const glm::vec3 &n = a.surface.normal, &m = b.surface.normal, way = b.surface.position - a.surface.position;
@@ -212,23 +220,21 @@ bool are_level(const Smoothing::Seen& a, const Smoothing::Seen& b)
 /// The one of pixel i that holds `wanted` of `light`, or reaches as far as any may.
 void find_kernel(const Seeing& at, std::size_t i, double wanted, std::span<const double> light, Kernel& kernel)
 {
-  const int x = static_cast<int>(i) % at.width, y = static_cast<int>(i) / at.width;
   kernel.pixels.clear();
   kernel.inside = 0;
   kernel.ring_weight = 1;
   double inside = 0, ring = 0;
   int distance2 = 0;
-  for (const Offset& o : offsets()) {
+  for (std::size_t number = 0; number < offsets().size(); ++number) {
+    const Offset& o = offsets()[number];
     if (o.distance2() > distance2) {
       if (inside + ring >= wanted) break;
       inside += std::exchange(ring, 0);
       kernel.inside = kernel.pixels.size();
       distance2 = o.distance2();
     }
-    const int u = x + o.x, v = y + o.y;
-    if (u < 0 || u >= at.width || v < 0 || v >= at.height) continue;
-    const std::size_t j = static_cast<std::size_t>(v) * static_cast<std::size_t>(at.width) + static_cast<std::size_t>(u);
-    if (j != i && !are_level(at.seen[i], at.seen[j])) continue;
+    if (!at.level[i][number]) continue;
+    const auto j = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + std::ptrdiff_t{o.y} * at.width + o.x);
     kernel.pixels.push_back(j);
     ring += light[j];
   }
@@ -282,7 +288,7 @@ void spread_shares(const Seeing& at, const Weights& by, std::span<const float> s
 std::vector<float> shares(const Seeing& at, const Weights& by, const std::vector<float>& rgb, const std::vector<float>& error_draw,
                           const std::vector<float>& rgb_spread)
 {
-  const std::vector<float> whole(at.seen.size(), 1);
+  const std::vector<float> whole(at.level.size(), 1);
   std::vector<float> a(rgb.size()), b(rgb.size()), none;
   std::transform(rgb.begin(), rgb.end(), error_draw.begin(), a.begin(), std::plus());
   std::transform(rgb.begin(), rgb.end(), error_draw.begin(), b.begin(), std::minus());
@@ -338,24 +344,36 @@ void Smoothing::look()
 {
   if (!view_) return;
   const std::unique_ptr<const View> view = std::move(view_);
-  seen_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  std::vector<Sight> sights(seen_.size());
+  std::vector<PixelSight> seen(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  std::vector<Sight> sights(seen.size());
   for_ranges(sights.size(), 1 << 10, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
       sights[i] = look_through_pixel(view->scene, view->bvh, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
   const std::vector<bool> pulled = are_near_pulled(sights, width_, height_);
-  for (std::size_t i = 0; i < seen_.size(); ++i) seen_[i] = {pulled[i] ? sights[i].first : sights[i].last, sights[i].first.object};
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = {pulled[i] ? sights[i].first : sights[i].last, sights[i].first.object};
   for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
-    if (seen_[i].first == seen_[j].first && seen_[i].surface.object == seen_[j].surface.object) return;
-    seen_[i].at_edge = seen_[j].at_edge = true;
+    if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;
+    seen[i].at_edge = seen[j].at_edge = true;
+  });
+  level_.resize(seen.size());
+  for_ranges(seen.size(), 1 << 12, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      for (std::size_t number = 0; number < offsets().size(); ++number) {
+        const Offset& o = offsets()[number];
+        const int x = static_cast<int>(i) % width_ + o.x, y = static_cast<int>(i) / width_ + o.y;
+        if (x < 0 || x >= width_ || y < 0 || y >= height_) continue;
+        const std::size_t j = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+        level_[i][number] = j == i || are_level(seen[i], seen[j]);
+      }
   });
 }
 
 std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
-  return tracing::tree_bytes(bvh) + tracing::surface_bytes(scene) + (sizeof(Sight) + sizeof(Seen) + pulled_apart) * scene.camera.pixels();
+  return tracing::tree_bytes(bvh) + tracing::surface_bytes(scene) +
+         (sizeof(Sight) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
 }
 
 void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate)
@@ -368,15 +386,15 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
 
   // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
   // Knopp (1967) evens that out, and still every pixel gives away what it has.
-  std::vector<double> favour(seen_.size(), 1), taken(seen_.size());
+  std::vector<double> favour(level_.size(), 1), taken(level_.size());
   const Weights by{light, wanted, favour};
-  const Seeing at{width_, height_, seen_};
+  const Seeing at{width_, height_, level_};
   give_parts(
       at, by, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
   std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
 
   std::vector<float> rgb_spread = rgb, draw_spread = error_draw;
-  std::vector<float> share(seen_.size(), 1);
+  std::vector<float> share(level_.size(), 1);
   spread_shares(at, by, share, rgb_spread, draw_spread);
   if (spread_ == Spread::where_it_helps) {
     share = shares(at, by, rgb, error_draw, rgb_spread);

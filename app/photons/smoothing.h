@@ -6,10 +6,10 @@
 // bright lines stay sharp, wide where they are few. A pixel that is not noisy is left alone, and in the end none is noisy: the limit is
 // that of the plain film. Power is neither lost nor made.
 #pragma once
-#include "photons/sight.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 
+#include <bitset>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -43,12 +43,8 @@ public:
   /// it, of what is spread and of what is not that the halves say is best (mixture.h).
   void spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate = {});
 
-  /// What a pixel shows, as far as light may be spread over it.
-  struct Seen {
-    Sight::Surface surface; ///< the diffuse one at the end of a look, or the first of glass or a mirror
-    int first = -1;         ///< the object that is met first; -1: none
-    bool at_edge = false;   ///< whether a neighbour shows something else: then the pixel may hold light of that
-  };
+  /// Of the pixels within reach of one, nearest first, those that its light may be spread over.
+  using Level = std::bitset<128>;
 
 private:
   /// What is looked at.
@@ -59,7 +55,7 @@ private:
   int width_, height_;
   Spread spread_;
   std::unique_ptr<const View> view_; ///< null: all looks are taken
-  std::vector<Seen> seen_;           ///< [pixel]
+  std::vector<Level> level_;         ///< [pixel]
 };
 
 } // namespace nephroid::photons
