@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures engine 2 against engine 1 and prints the tables of docs/notebook/environment.md: the caustic layer where the camera sees a receiver, as the thesis compares.
 
-    tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--size N] [--reference-seconds S] [TABLE...]
+    tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--sky MAP] [--size N] [--reference-seconds S] [TABLE...]
 
 Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1: how many, by which segmentation),
 spheres (3.2: how many, with which radii), histogram (figure 3.16), directions, refining; techniques (3.3 and figure 3.19: milliseconds, at 512 x 512, where
@@ -28,8 +28,8 @@ PRESETS = Path(__file__).resolve().parents[2] / "presets/environment"
 
 
 class Bench:
-    def __init__(self, program, out, size, passes, seconds):
-        self.program, self.out, self.size, self.passes, self.seconds = program, Path(out), size, passes, seconds
+    def __init__(self, program, out, size, passes, seconds, sky=None):
+        self.program, self.out, self.size, self.passes, self.seconds, self.sky = program, Path(out), size, passes, seconds, sky
         self.out.mkdir(parents=True, exist_ok=True)
 
     def call(self, *words):
@@ -43,6 +43,8 @@ class Bench:
         folder = self.out / name
         if not (folder / "image.exr").exists():
             settings = {"scene.camera.resolution": [self.size, self.size], **settings}
+            if preset == "torus":
+                preset, settings = "ring", {"scene.materials.gold": {"type": "dielectric", "dispersion": 1.5}, "scene.environment.file": self.sky, **settings}
             sets = [word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value)}")]
             self.call("run", PRESETS / f"{preset}.json", "-o", folder, *words, *sets)
         return folder
@@ -197,16 +199,18 @@ def main():
     arguments.add_argument("out")
     arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", "techniques", "converging"], metavar="TABLE")
     arguments.add_argument("--presets", nargs="+", default=SCENES, help="of `scenes` and `converging`")
+    arguments.add_argument("--sky", help="a latitude-longitude map: adds a torus of glass under it to the scenes")
     arguments.add_argument("--size", type=int, default=192)
     arguments.add_argument("--passes", type=int, default=8)
     arguments.add_argument("--reference-seconds", type=int, default=120)
     chosen = arguments.parse_args()
-    bench = Bench(chosen.program, chosen.out, chosen.size, chosen.passes, chosen.reference_seconds)
+    bench = Bench(chosen.program, chosen.out, chosen.size, chosen.passes, chosen.reference_seconds, chosen.sky)
+    presets = chosen.presets + (["torus"] if chosen.sky else [])
     for name in chosen.tables:
         if name == "scenes":
-            scenes(bench, chosen.presets)
+            scenes(bench, presets)
         elif name == "converging":
-            for preset in chosen.presets:
+            for preset in presets:
                 converging(bench, preset)
         elif name in ALONE:
             ALONE[name](bench, "bunny")
