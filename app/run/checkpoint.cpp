@@ -44,7 +44,7 @@ Header header_of(const Prepared& prepared, const compute::Context& context)
   header.engine = word_of(engine);
   header.program = word_of(version());
   header.device = hash_of(fmt::format("{}\n{}\n{}\n{}", device.name, device.platform, device.version, device.driver));
-  header.kernels = hash_of(compute::kernel_sources(context, engine));
+  header.kernels = hash_of(compute::kernel_sources(context, engine) + compute::kernel_sources(context, "photons"));
   header.content = content_hash(prepared.preset, prepared.plan->inputs);
   return header;
 }

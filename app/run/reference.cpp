@@ -50,7 +50,8 @@ fs::path cache_file(const Prepared& prepared, const compute::Context& context)
   const preset::Preset recipe = recipe_preset(prepared.preset, prepared.preset.reference->seed);
   std::uint64_t hash = content_hash(recipe, prepared.plan->inputs);
   hash = hash_of(fmt::format("{} passes {}", version(), recipe.stop.passes.value()), hash);
-  hash = hash_of(compute::kernel_sources(context, prepared.preset.settings.engine()), hash);
+  for (const std::string_view folder : {prepared.preset.settings.engine(), std::string_view("photons")})
+    hash = hash_of(compute::kernel_sources(context, folder), hash);
   return references_folder() / fmt::format("{:016x}.exr", hash);
 }
 

@@ -203,9 +203,9 @@ TEST_F(EditedKernels, AreWatchedWhileTheyAreBuilt)
 TEST_F(EditedKernels, AnEngineMayHaveNone)
 {
   const Context context = open();
-  fs::create_directory(folder() / "spectral");
+  fs::create_directory(folder() / "photons");
   write("photons/test.cl", "// a kernel\n");
-  EXPECT_THAT(compute::kernel_sources(context, "spectral"), HasSubstr("// a kernel"));
+  EXPECT_THAT(compute::kernel_sources(context, "photons"), HasSubstr("// a kernel"));
   EXPECT_EQ(compute::kernel_sources(context, "inverse"), "");
   fs::create_symlink("loop", folder() / "loop");
   EXPECT_THAT(error_line([&] { compute::kernel_sources(context, "loop"); }), HasSubstr("loop: cannot be read: "));

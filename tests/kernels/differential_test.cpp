@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // kernels/tracing/differential.h against finite differences of the same paths in double precision, and a prism's angular dispersion in
 // closed form.
+#include "spectral/engine.h"
 #include "tests/support/differential_reference.h"
 #include "tests/support/render.h"
 #include "tests/support/statistics.h"
@@ -14,7 +15,7 @@ constexpr int steps = 24; // surfaces of a path
 
 const char* const source = R"(#include "kernels/tracing/world.h"
 #include "kernels/tracing/random.h"
-#include "spectral/engine.h"
+
 #define STEPS 24
 // What each ray meets: triangle * 4 + (0: ends there, 1: reflected, 2: transmitted), and place, direction and their derivatives after that.
 __kernel void follow(WORLD_ARGUMENTS, __global const float* rays, __global const int* clusters, uint2 seed, __global uint* meets,
