@@ -2,6 +2,7 @@
 // A plate with parallel faces: light leaves it in the direction it came from, moved aside and weaker, and otherwise as it was.
 // Balls; the critical angle and Brewster's.
 #include "optics/fresnel.h"
+#include "spectral/settings.h"
 #include "tests/support/closed_form.h"
 
 namespace nephroid::slab_test {
@@ -186,7 +187,6 @@ TEST(BrewstersAngle, TheKernelReflectsNothingPolarisedInThePlane)
 {
   const TestKernels kernels(R"(
 #include "kernels/tracing/fresnel.h"
-#include "spectral/settings.h"
 kernel void reflectances(global const float4* in, global float4* out, uint count)
 {
   const uint i = get_global_id(0);
