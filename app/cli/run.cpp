@@ -48,12 +48,30 @@ void put_in_order(std::vector<double>& times)
   times.assign(sorted.begin(), sorted.end());
 }
 
+/// Puts a number in place of "auto". The runs of a sweep and the frames of an animation have that of the first, so that their pictures can
+/// be compared; a run that goes on has its own.
+void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared)
+{
+  if (target.preset.white != 0) return;
+  if (const auto own = options.resume ? run::white_of_run(target.folder) : std::nullopt) shared.white = own;
+  if (!shared.white) {
+    const preset::Preset first = target.preset.animation ? preset::at_frame(target.preset, 0) : target.preset;
+    preset::at_origins(first, [&] {
+      shared.prepared = run::prepare(first, shared.prepared ? &*shared.prepared : nullptr);
+      shared.white = run::fitted_white(*shared.prepared, device_of(options, shared), interrupted);
+    });
+    fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
+  }
+  target.preset.white = *shared.white;
+}
+
 void run_preset(const RunOptions& options)
 {
   const Interrupts interrupts; // before OpenCL starts its threads
-  const std::vector<Target> targets = targets_of(options);
+  std::vector<Target> targets = targets_of(options);
   Shared shared;
-  for (const Target& target : targets) {
+  for (Target& target : targets) {
+    fit_white(options, target, interrupts.token(), shared);
     if (target.preset.animation) {
       render_animation(options, target, interrupts.token(), shared);
       continue;

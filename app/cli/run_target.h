@@ -44,6 +44,7 @@ struct Shared {
 
   std::optional<compute::Context> context; ///< the device, opened by the first run that needs it
   std::optional<run::Prepared> prepared;   ///< the run before: its scene may do for the next one
+  std::optional<double> white;             ///< in place of "auto"
   std::set<std::string> notes;             ///< that were printed: frames are much alike
 };
 

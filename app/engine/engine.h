@@ -96,7 +96,7 @@ const Engine& engine_of(const preset::Preset& preset);
 /// The word in a preset's "engine".
 std::string_view name_of(const Engine& engine);
 
-/// Whether a job of `before` may take on `now`, whatever engines they are of.
+/// Whether a job of `before` may take on `now`, whatever engines they are of. A white that is to be fitted takes another run.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::engine

@@ -56,8 +56,9 @@ struct Field {
   Columns columns = {};           ///< of a table of pairs
   Text text = Text::text;         ///< of a string
   Names names = Names::nothing;
-  bool bare_number = false; ///< of a list of numbers: a number stands for a list of one
-  bool required = false;    ///< no default is sensible
+  bool bare_number = false;        ///< of a list of numbers: a number stands for a list of one
+  std::string_view zero_word = {}; ///< of a number: the word for 0, which is outside of its bounds
+  bool required = false;           ///< no default is sensible
 };
 
 /// One word of an enumeration. For a struct's type it introduces the fields that come with it.

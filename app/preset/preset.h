@@ -221,7 +221,7 @@ struct Preset {
   std::string description; ///< one line for `nephroid presets`
   Unit unit = Unit::m;
   std::uint64_t seed = 1;
-  double white = 1; ///< the luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture
+  double white = 1; ///< the luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture; 0: "auto" (run::fitted_white)
   Scene scene;
   Settings settings; ///< of its engine
   Stop stop;

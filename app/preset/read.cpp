@@ -125,7 +125,7 @@ private:
   {
     const Kind kind = value.kind();
     if (kind == Kind::integer) return read_integer(json, pointer, f, value);
-    if (kind == Kind::number) return read_number(json, pointer, f.bounds, f.unit, value);
+    if (kind == Kind::number) return read_number(json, pointer, f, value);
     if (kind == Kind::text) return read_text(json, pointer, f, value);
     if (kind == Kind::word) return read_word(json, pointer, f, value);
     if (kind == Kind::object) return read_object(json, pointer, value);
@@ -140,10 +140,11 @@ private:
       read_list(json, pointer, f, value);
   }
 
-  void read_number(const Json& json, const std::string& pointer, const Bounds& bounds, std::string_view unit, const Value& value) const
+  void read_number(const Json& json, const std::string& pointer, const Field& f, const Value& value) const
   {
-    if (!json.is_number() || !bounds.contain(json.get<double>())) refuse(json, pointer, expected_number(bounds, unit));
-    value.as<double>() = json.get<double>();
+    const bool is_zero = !f.zero_word.empty() && json == f.zero_word;
+    if (!is_zero && (!json.is_number() || !f.bounds.contain(json.get<double>()))) refuse(json, pointer, expected_number(f));
+    value.as<double>() = is_zero ? 0 : json.get<double>();
   }
 
   void read_integer(const Json& json, const std::string& pointer, const Field& f, const Value& value) const
@@ -192,7 +193,7 @@ private:
     const ValueType& type = value.type();
     if (f.bare_number && json.is_number()) {
       value.resize(1);
-      read_number(json, pointer, f.bounds, f.unit, value[0]);
+      read_number(json, pointer, f, value[0]);
       return;
     }
     const Count count = type.size > 0 ? Count{type.size, type.size} : f.count;
@@ -209,7 +210,8 @@ private:
   {
     if (!json.is_array() || json.size() != 2)
       refuse(json, pointer, fmt::format("a row [{}, {}]", f.columns.first.name, f.columns.second.name));
-    for (std::size_t i = 0; i < 2; ++i) read_number(json[i], child(pointer, i), f.columns[i].bounds, f.columns[i].unit, row[i]);
+    for (std::size_t i = 0; i < 2; ++i)
+      read_number(json[i], child(pointer, i), {.unit = f.columns[i].unit, .bounds = f.columns[i].bounds}, row[i]);
   }
 
   /// null takes an inherited entry away.

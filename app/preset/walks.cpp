@@ -54,7 +54,9 @@ Json object_of(const Value& value)
   Json object = Json::object();
   for (const Member& member : value.members()) {
     const bool absent = !member.value.exists() || (member.role == Role::recipe && member.value.count() == 0);
-    if (!absent) object[std::string(member.field.name)] = as_json(member.value);
+    if (absent) continue;
+    const bool is_word = !member.field.zero_word.empty() && member.value.as<double>() == 0;
+    object[std::string(member.field.name)] = is_word ? Json(member.field.zero_word) : as_json(member.value);
   }
   return object;
 }
@@ -75,7 +77,10 @@ Json as_json(const Value& value)
   return list_of(value);
 }
 
-std::string expected_number(const Bounds& bounds, std::string_view unit) { return "a number" + in_range(bounds) + in_unit(unit); }
+std::string expected_number(const Field& f)
+{
+  return "a number" + in_range(f.bounds) + in_unit(f.unit) + (f.zero_word.empty() ? "" : fmt::format(" or \"{}\"", f.zero_word));
+}
 
 std::string expected_count(const Count& count)
 {
@@ -90,7 +95,7 @@ std::string expected(const Field& f, const ValueType& type)
   };
   if (type.kind == Kind::boolean) return "true or false";
   if (type.kind == Kind::integer) return expected_integer(f.bounds, f.unit);
-  if (type.kind == Kind::number) return expected_number(f.bounds, f.unit);
+  if (type.kind == Kind::number) return expected_number(f);
   if (type.kind == Kind::text) return f.text == Text::file ? "the name of a file" : "a string";
   if (type.kind == Kind::word) {
     std::string words;

@@ -18,7 +18,7 @@ Json as_json(const Value& value);
 
 /// What a field of this type wants, in words: "a number from 0 to 1", "a list of 1 to 16 items, each a string".
 std::string expected(const Field& field, const ValueType& type);
-std::string expected_number(const Bounds& bounds, std::string_view unit);
+std::string expected_number(const Field& field);
 /// "1 to 16 items", "at most 2 items"
 std::string expected_count(const Count& count);
 

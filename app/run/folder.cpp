@@ -74,6 +74,16 @@ std::vector<std::string> engine_files(const fs::path& folder)
   return names;
 }
 
+std::optional<double> white_of_run(const fs::path& folder)
+{
+  if (!is_there(folder / "preset.json")) return std::nullopt;
+  try {
+    return nlohmann::json::parse(read_file(folder / "preset.json")).at("white").get<double>();
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
 void begin_run(const fs::path& folder, const Prepared& prepared)
 {
   std::error_code ignored;

@@ -65,9 +65,20 @@ std::optional<std::uint64_t> available_memory_bytes();
 void require_memory(const plan::Plan& plan, int width, int height, const compute::DeviceInfo& device,
                     std::optional<std::uint64_t> available);
 
-/// Builds the engine's job on a device. Throws as require_memory, before anything is allocated, BuildError for a kernel that does not
-/// compile, and bad_input for what the engine cannot render.
+/// Builds the engine's job on a device. Its preset's white is a number. Throws as require_memory, before anything is allocated, BuildError
+/// for a kernel that does not compile, and bad_input for what the engine cannot render.
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
+
+/// The white that shows a picture, which was made with a white of 1, well: half of it, but for its caustics, is darker than .5. A pixel
+/// counts by the root of its luminance. Caustics count where all else is less than an eighth as bright. Two digits; 1 of a black picture.
+double white_for(const job::Picture& picture);
+
+/// The same of the preset's first whole picture, at most 256 pixels wide and high, whatever the preset's white is: what stands for "auto".
+/// Throws as prepare and make_job do, and interrupted where `stop` asks for it.
+double fitted_white(const Prepared& prepared, const compute::Context& context, const std::stop_token& stop = {});
+
+/// The white of the run in the folder, by its preset.json; nothing where that is missing or damaged, or says "auto".
+std::optional<double> white_of_run(const std::filesystem::path& folder);
 
 /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. Throws bad_input where it
 /// is a file or holds anything but a run, failed where it cannot be written to. Returns whether it made the folder.

@@ -94,9 +94,16 @@ void ParametersPanel::draw_value(const Outline& o, const Json& value, const std:
                 width);
     break;
   case Kind::integer:
-  case Kind::number:
-    draw_number({o.field.bounds, o.whole, width}, value, pointer);
+  case Kind::number: {
+    const std::string word(o.field.zero_word);
+    const float button = word.empty() ? 0 : ImGui::CalcTextSize(word.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + gap();
+    draw_number({o.field.bounds, o.whole, width - button}, value, pointer);
+    if (word.empty()) break;
+    ImGui::SameLine(0, gap());
+    if (ImGui::Button((word + "##" + pointer).c_str())) set(word);
+    note(pointer + ":" + word, std::string(o.field.sentence));
     break;
+  }
   case Kind::numbers: {
     const auto count = static_cast<float>(o.size);
     for (std::size_t i = 0; i < o.size; ++i) {

@@ -56,13 +56,14 @@ NewRun DeviceRuns::make(const preset::Preset& preset)
     changed_ = false;
   }
   previous_ = std::move(prepared);
+  if (preset.white == 0) previous_->preset.white = run::fitted_white(*previous_, *context_);
   auto plan = std::make_shared<plan::Plan>(*previous_->plan);
   std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan->notes);
-  auto job = measure::measured(run::make_job(*previous_, *context_), preset, reference);
+  auto job = measure::measured(run::make_job(*previous_, *context_), previous_->preset, reference);
   compute::tell_of_compiling(*context_, [] {}); // what a job builds later is short
   std::vector<std::any> seen;
   if (look_around_) seen = look_around_(preset, previous_->loaded);
-  return {std::move(job), std::move(plan), std::move(reference), std::move(seen), context_->device()};
+  return {std::move(job), std::move(plan), std::move(reference), std::move(seen), context_->device(), previous_->preset.white};
 }
 
 void DeviceRuns::watch(const std::stop_token& stop)

@@ -107,6 +107,11 @@ void RunInHand::take_arrival()
   if (!arrival_->run) return;
   newest_ = *std::exchange(arrival_->run, std::nullopt);
   if (arrival_->preset != preset_) newest_.reference.reset(); // it is of another light
+  if (preset_->white == 0 && newest_.white != 0) {
+    preset::Preset fitted = *preset_;
+    fitted.white = newest_.white;
+    preset_ = std::make_shared<const preset::Preset>(std::move(fitted));
+  }
 }
 
 /// Parts of a picture on black would hide a whole one of the run before: they are shown only where there is none, or the run is slow.

@@ -52,6 +52,16 @@ bool UndoStack::step(int by)
   return true;
 }
 
+void UndoStack::fit_white(double white)
+{
+  for (Entry& entry : state_.entries) {
+    if (entry.preset->white != 0) continue;
+    preset::Preset fitted = *entry.preset;
+    fitted.white = white;
+    entry.preset = std::make_shared<const preset::Preset>(std::move(fitted));
+  }
+}
+
 void UndoStack::mark_saved(const std::string& source)
 {
   for (Entry& entry : state_.entries) {

@@ -56,6 +56,8 @@ public:
   }
   /// The current state has been saved as `source`. All states belong to that file now: what they name is named as from its folder.
   void mark_saved(const std::string& source);
+  /// In place of "auto" in all states. It is no step of its own.
+  void fit_white(double white);
   bool modified() const { return state_.saved != state_.index; }
   const State& state() const { return state_; }
 

@@ -307,6 +307,10 @@ void Workbench::update(Clock::time_point now)
 {
   look_at_files();
   run_.update(edits());
+  if (const auto white = run_.fitted_white(); white && edits_ && edits_->current().white == 0) {
+    edits_->fit_white(*white);
+    messages_.note(fmt::format("white {} fits the first picture", *white));
+  }
   sweep_.update(run_, comparing_, edits());
   if (std::string note = recent_.take_note(); !note.empty()) messages_.note(std::move(note));
   tasks_.collect(messages_);

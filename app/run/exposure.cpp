@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// "white": "auto" becomes a number before anything else is done, so that checkpoints, references, frames and files know numbers only, and a
+// run of that number has the same bits.
+#include "run/run.h"
+
+#include "measure/lab.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::run {
+namespace {
+
+/// Light is alike in small pictures, and their pixels have less noise.
+constexpr int longest_edge = 256;
+
+/// Of what half of the pixels lie below, each counted by the root of its luminance: so neither a black background nor a small caustic
+/// decides. 0 of a black picture.
+double middle_luminance(const std::vector<float>& rgb)
+{
+  std::vector<double> luminances;
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
+    if (const double y = measure::luminance(&rgb[i]); y > 0 && std::isfinite(y)) luminances.push_back(y);
+  std::ranges::sort(luminances);
+  double all = 0, below = 0;
+  for (const double y : luminances) all += std::sqrt(y);
+  for (const double y : luminances)
+    if ((below += std::sqrt(y)) >= all / 2) return y;
+  return 0;
+}
+
+} // namespace
+
+double white_for(const job::Picture& picture)
+{
+  const double whole = middle_luminance(picture.rgb);
+  std::vector<float> rest = picture.rgb;
+  for (const job::Layer& layer : picture.layers)
+    if (layer.name == "caustic") std::ranges::transform(rest, layer.rgb, rest.begin(), std::minus());
+  const double without_caustics = middle_luminance(rest);
+  const double middle = without_caustics > whole / 8 ? without_caustics : whole;
+  return middle > 0 ? std::clamp(std::stod(fmt::format("{:.1e}", 2 * middle)), 1e-12, 1e12) : 1;
+}
+
+double fitted_white(const Prepared& prepared, const compute::Context& context, const std::stop_token& stop)
+{
+  preset::Preset preset = prepared.preset;
+  preset.white = 1;
+  preset.stop = {};
+  preset.stop.passes = 1;
+  preset.reference.reset();
+  auto& [width, height] = preset.scene.camera.resolution;
+  const double scale = std::min(1.0, longest_edge / static_cast<double>(std::max(width, height)));
+  for (int* edge : {&width, &height}) *edge = std::max(1, static_cast<int>(std::lround(*edge * scale)));
+  const Prepared small = prepare(preset, &prepared);
+  const std::unique_ptr<job::Job> job = make_job(small, context);
+  while (job->progress().step < 1 && !job->finished()) {
+    if (stop.stop_requested()) throw Error(ErrorKind::interrupted, preset.source, "interrupted before rendering began");
+    job->step();
+  }
+  return white_for(*job->snapshot().picture);
+}
+
+} // namespace nephroid::run
