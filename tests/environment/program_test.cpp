@@ -50,6 +50,27 @@ TEST_F(EnvironmentRun, BakesAndRendersTheShippedPresets)
   }
 }
 
+TEST_F(EnvironmentRun, FitsItsWhiteBeforeAndAfterTheBake)
+{
+  const std::vector<std::string> fitted{"--passes", "2", "--set", "white=auto"};
+  for (const char* name : {"cold", "warm"}) {
+    const Ended ended = run_to("bunny", name, fitted);
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  }
+  const double white = of("cold/run.json").at("white");
+  EXPECT_GT(white, 2);
+  EXPECT_LT(white, 8) << "the preset itself has 4";
+  ASSERT_EQ(run_to("bunny", "number", {"--passes", "2", "--set", fmt::format("white={}", white)}).exit_code, 0);
+  ASSERT_EQ(run_to("bunny", "parts", {"--passes", "1", "--set", "white=auto"}).exit_code, 0);
+  std::vector<std::string> rest = fitted;
+  rest.emplace_back("--resume");
+  ASSERT_EQ(run_to("bunny", "parts", rest).exit_code, 0);
+  for (const std::string name : {"warm", "number", "parts"}) {
+    EXPECT_EQ(of(name + "/run.json").at("white"), white) << name;
+    EXPECT_TRUE(bytes(name + "/image.exr") == bytes("warm/image.exr")) << name;
+  }
+}
+
 TEST_F(EnvironmentRun, GoesOnWhereItStopped)
 {
   ASSERT_EQ(run_to("ball", "whole", {"--passes", "4"}).exit_code, 0);

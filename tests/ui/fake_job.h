@@ -108,7 +108,7 @@ public:
     if (broken) throw failed("photons.cl:12", "expected ';' after expression");
     plan::Plan made_plan = plan;
     made_plan.notes = {preset.name + ": n is extrapolated below 390 nm"};
-    return {std::make_unique<FakeJob>(preset, *this), std::make_shared<const plan::Plan>(std::move(made_plan)), reference};
+    return {std::make_unique<FakeJob>(preset, *this), std::make_shared<const plan::Plan>(std::move(made_plan)), reference, {}, {}, white};
   }
   void reread_files() override { ++reread; }
   void reopen_device() override { ++reopened; }
@@ -118,6 +118,7 @@ public:
   plan::Plan plan;                                     ///< but for its notes; set before a run starts, as is
   std::shared_ptr<const measure::Reference> reference; ///< this
   std::optional<Error> refusal;                        ///< and this: of the preset
+  double white = 0;                                    ///< in place of "auto"
   std::atomic<int> made{0}, reread{0}, reopened{0};
   std::atomic<bool> changed{false}, broken{false}, compiles{false}; ///< the kernels
 };

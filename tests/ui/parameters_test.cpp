@@ -136,6 +136,27 @@ TEST_F(ParametersTest, EditsThatNeedEachOtherAreOneEntry)
   EXPECT_EQ(text(), before);
 }
 
+TEST_F(ParametersTest, AWhiteThatIsFittedIsANumberAsSoonAsItIsKnown)
+{
+  runs.white = 2.5;
+  open();
+  enter(white, "7");
+  click(white + ":auto");
+  ASSERT_TRUE(until([&] { return workbench.preset()->white == 2.5; }));
+  frames(2);
+  EXPECT_EQ(workbench.run().snapshot_origin().preset->white, 2.5);
+  const int before = made();
+  enter(fov, "50");
+  ASSERT_TRUE(until([&] { return made() > before; }));
+  EXPECT_EQ(workbench.preset()->white, 2.5) << "it stays";
+  undo();
+  undo();
+  EXPECT_EQ(at(white), 7);
+  enter(white, "auto");
+  ASSERT_TRUE(until([&] { return workbench.preset()->white == 2.5; }));
+  EXPECT_THAT(last_message(workbench), HasSubstr("white 2.5 fits the first picture"));
+}
+
 TEST_F(ParametersTest, WhatWaitsIsTakenBack)
 {
   open();

@@ -26,6 +26,21 @@ TEST(PresetReading, WhatIsNotGivenHasItsDefault)
   EXPECT_TRUE(preset::parse_preset(R"({"engine":"spectral"})", "a.json") == expected);
 }
 
+TEST(PresetReading, AWordStandsForAWhiteThatIsFitted)
+{
+  const Preset p = parse(R"("white":"auto")");
+  EXPECT_EQ(p.white, 0);
+  EXPECT_EQ(nlohmann::json::parse(preset::to_json(p))["white"], "auto");
+  EXPECT_TRUE(preset::parse_preset(preset::to_json(p), "a.json") == p);
+  EXPECT_EQ(parse(R"("white":3)", {"white=auto"}).white, 0);
+  const Preset relit = parse(R"("spectral":{"relight":true})");
+  Preset brighter = relit;
+  brighter.white = 2;
+  EXPECT_TRUE(engine::adoptable(relit, brighter));
+  brighter.white = 0;
+  EXPECT_FALSE(engine::adoptable(relit, brighter)) << "it is fitted to a first picture";
+}
+
 TEST(PresetReading, BareValuesStandForObjects)
 {
   const Preset p = parse(R"("scene":{"materials":{
