@@ -3,7 +3,7 @@
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
 
-namespace nephroid::exposure_runs_test {
+namespace nephroid::exposure_test {
 
 using nephroid::read_file;
 using nlohmann::json;
@@ -45,15 +45,16 @@ TEST_F(Exposure, IsANumberOfTheSameBitsHoweverTheRunCameThere)
 TEST_F(Exposure, IsOneForASweepAnAnimationAndAReference)
 {
   write_file_whole(scratch.path() / "sweep.json", R"({"parent": "spectral/plate.json", "white": "auto",
-    "scene": {"camera": {"resolution": [16, 16]}}, "sweep": {"scene.lights.0.power_w": [1, 100]}})");
+    "scene": {"camera": {"resolution": [16, 16]}}, "sweep": {"scene.lights.0.irradiance_w_m2": [1, 100]}})");
   const Ended sweep = nephroid::test::nephroid({"run", "sweep.json", "--passes", "1"}, scratch.path(), logs);
   ASSERT_EQ(sweep.exit_code, 0) << sweep.err;
   EXPECT_EQ(white("out/sweep/001"), white("out/sweep/002"));
 
-  const std::string tracks = R"([{"path": "scene.lights.0.power_w", "keys": [{"frame": 0, "value": 1}, {"frame": 1, "value": 100}]}])";
+  const std::string tracks =
+      R"([{"path": "scene.lights.0.irradiance_w_m2", "keys": [{"frame": 0, "value": 1}, {"frame": 1, "value": 100}]}])";
   const Ended film = fitted("film", {"--passes", "1", "--frames", "1", "--set", R"(animation={"frames": 2, "tracks": )" + tracks + "}"});
   ASSERT_EQ(film.exit_code, 0) << film.err;
-  ASSERT_EQ(fitted("frame", {"--passes", "1", "--set", "scene.lights.0.power_w=1"}).exit_code, 0);
+  ASSERT_EQ(fitted("frame", {"--passes", "1", "--set", "scene.lights.0.irradiance_w_m2=1"}).exit_code, 0);
   EXPECT_EQ(white("film/frames/0001"), white("frame")) << "frame 0's, though that is not rendered";
   EXPECT_EQ(json::parse(read_file(file("film") / "preset.json"))["white"], white("frame"));
 
@@ -77,4 +78,4 @@ TEST_F(Exposure, BadOnesAreRefusedInOneLine)
   refused("inverse/words", "auto", "has no meaning for the engine 'inverse'");
 }
 
-} // namespace nephroid::exposure_runs_test
+} // namespace nephroid::exposure_test
