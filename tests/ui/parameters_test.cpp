@@ -143,8 +143,9 @@ TEST_F(ParametersTest, AWhiteThatIsFittedIsANumberAsSoonAsItIsKnown)
   enter(white, "7");
   click(white + ":auto");
   ASSERT_TRUE(until([&] { return workbench.preset()->white == 2.5; }));
-  frames(2);
+  ASSERT_TRUE(until([&] { return workbench.run().snapshot_is_current(); }));
   EXPECT_EQ(workbench.run().snapshot_origin().preset->white, 2.5);
+  frames(2);
   const int before = made();
   enter(fov, "50");
   ASSERT_TRUE(until([&] { return made() > before; }));
