@@ -130,9 +130,12 @@ void check_animation(const Preset& preset, const Where& where)
     throw bad_input(where("/reference"), "is one picture for all frames of the animation", "expected a recipe, or no reference");
 }
 
-/// A reference that shares a seed with the run would share its noise, and call it right.
+/// A reference that shares a seed with the run would share its noise, and call it right; one of another white is another picture.
 void check_reference(const Preset& preset, const Where& where)
 {
+  if (preset.white == 0 && preset.reference && preset.reference->type == Reference::Type::file)
+    throw bad_input(where("/white"), "is \"auto\", and the reference is a picture with a white of its own",
+                    "expected the number that the reference was made with");
   if (!preset.reference || preset.reference->type != Reference::Type::recipe) return;
   const std::uint64_t seed = preset.reference->seed;
   if (preset.seed == seed || preset.seed == seed + 1)

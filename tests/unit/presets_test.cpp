@@ -33,6 +33,7 @@ TEST(PresetReading, AWordStandsForAWhiteThatIsFitted)
   EXPECT_EQ(nlohmann::json::parse(preset::to_json(p))["white"], "auto");
   EXPECT_TRUE(preset::parse_preset(preset::to_json(p), "a.json") == p);
   EXPECT_EQ(parse(R"("white":3)", {"white=auto"}).white, 0);
+  EXPECT_THROW(parse(R"("white":"auto","reference":"a.exr")"), Error) << "whose white is not known";
   const Preset relit = parse(R"("spectral":{"relight":true})");
   Preset brighter = relit;
   brighter.white = 2;
