@@ -10,7 +10,7 @@ namespace nephroid::caustics_test {
 using namespace nephroid::environment;
 using scene::even_direction;
 
-constexpr double nine_bits = 1.0 / 256; ///< half of what the last bit is worth, of halves and of floats' upper halves
+constexpr double nine_bits = 1.0 / 256; ///< half of what the last bit of a float's upper half is worth
 
 /// of(direction of the bake, radius, place on its sphere): E r^2 over size^2, linear sRGB.
 template <class Of>
@@ -25,9 +25,9 @@ Bake made_bake(int side, int channels, const std::vector<double>& radii, const O
   bake.baked.resize(bake.directions.size());
   for (std::size_t i = 0; i < bake.directions.size(); ++i)
     for (const double radius : radii)
-      for (std::size_t t = 0; t < bake.map.texels(); ++t) {
+      for (const std::size_t t : bake.map.texels_of_stored()) {
         const glm::dvec3 value = of(i, radius, bake.map.direction(t));
-        for (int c = 0; c < channels; ++c) bake.halves.push_back(to_half(value[c] / Bake::unit));
+        for (int c = 0; c < channels; ++c) bake.light.push_back(upper_half(value[c]));
       }
   test::make_radial(bake);
   return bake;
