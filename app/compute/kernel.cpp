@@ -29,6 +29,16 @@ void named(const detail::BufferState& buffer, const Work& work)
   }
 }
 
+detail::BufferState buffer_state(const Context& context, std::string name, std::size_t bytes)
+{
+  const DeviceInfo& device = context.device();
+  if (bytes > device.max_buffer_bytes)
+    throw failed("buffer " + name, fmt::format("{} do not fit on {}", detail::megabytes(bytes), device.name),
+                 fmt::format("at most {} a buffer", detail::megabytes(device.max_buffer_bytes)),
+                 "use a smaller image, mesh or number of photons");
+  return {context.state, std::move(name), {}, bytes};
+}
+
 void check_range(const char* does, std::size_t bytes, std::size_t offset_bytes, const detail::BufferState& buffer)
 {
   if (offset_bytes > buffer.bytes || bytes > buffer.bytes - offset_bytes)
@@ -38,19 +48,23 @@ void check_range(const char* does, std::size_t bytes, std::size_t offset_bytes, 
 } // namespace
 
 RawBuffer::RawBuffer(const Context& context, std::string name, std::size_t bytes, const void* initial)
-    : state(std::make_shared<detail::BufferState>())
+    : state(std::make_shared<detail::BufferState>(buffer_state(context, std::move(name), bytes)))
 {
-  const DeviceInfo& device = context.device();
-  if (bytes > device.max_buffer_bytes)
-    throw failed("buffer " + name, fmt::format("{} do not fit on {}", detail::megabytes(bytes), device.name),
-                 fmt::format("at most {} a buffer", detail::megabytes(device.max_buffer_bytes)),
-                 "use a smaller image, mesh or number of photons");
-  state->context = context.state;
-  state->name = std::move(name);
-  state->bytes = bytes;
   const std::size_t allocated = std::max<std::size_t>((bytes + sizeof(Zeros) - 1) / sizeof(Zeros), 1) * sizeof(Zeros);
   named(*state, [&] { state->buffer = cl::Buffer(context.state->context, CL_MEM_READ_WRITE, allocated); });
   if (bytes > 0 && initial) write(initial, bytes, 0);
+}
+
+RawBuffer RawBuffer::of_host(const Context& context, std::string name, std::size_t bytes, const void* items)
+{
+  if (bytes == 0 || context.device().type != "cpu") return {context, std::move(name), bytes, items};
+  RawBuffer buffer;
+  buffer.state = std::make_shared<detail::BufferState>(buffer_state(context, std::move(name), bytes));
+  named(*buffer.state, [&] {
+    buffer.state->buffer =
+        cl::Buffer(context.state->context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(items)); // which only reads it
+  });
+  return buffer;
 }
 
 void RawBuffer::write(const void* from, std::size_t bytes, std::size_t offset_bytes)

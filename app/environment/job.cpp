@@ -98,8 +98,7 @@ public:
       snapshot.caption = render_ ? "The object is baked first: its caustic spheres, as far as they are"
                                  : "There is no light: the object's caustic spheres, as far as they are baked";
     else if (baker_)
-      snapshot.caption =
-          fmt::format("Photons alone: the object's caustic spheres join when they are baked, {:.0f} % are", 100 * baked_part());
+      snapshot.caption = bake_caption();
     snapshot.pictures = spheres_;
     if (renderer_ && sheet_) snapshot.pictures.insert(snapshot.pictures.begin(), {"spheres", sheet_});
     snapshot.progress = progress();
@@ -137,8 +136,8 @@ public:
     if (complete && !bake_) return read_to_end(source);
     if (!complete) {
       if (bake_) { // another run has finished it since
-        bake_.reset();
         caustics_.reset();
+        bake_.reset();
         renderer_.reset();
         if (refines()) begin_rendering(std::nullopt);
       }
@@ -260,6 +259,14 @@ private:
     if (!has_photons) photons_.reset();
     if (has_photons && !photons_) send_photons(); // which makes them
     if (has_photons) photons_->state(state);
+  }
+
+  /// Of a picture without spheres, which come.
+  std::string bake_caption() const
+  {
+    const std::optional<double> left = baker_->seconds_left();
+    return fmt::format("Photons alone: the caustic spheres of {} join when they are baked, {:.0f} % are{}", task_->caster.name,
+                       100 * baked_part(), left ? fmt::format("; {:.0f} s left", std::ceil(*left)) : "");
   }
 
   /// 0..1

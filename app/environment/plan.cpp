@@ -104,12 +104,12 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
 std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::Scene& scene, bool bakes)
 {
   const std::uint64_t tree = tracing::tree_bytes(task.bvh), object = tracing::surface_bytes(task.caster.scene),
-                      item_bytes = std::uint64_t{task.empty_bake().sphere_items()} * sizeof(std::int64_t);
+                      sums = task.film_bytes() / task.radii.size();
   std::vector<plan::PlannedBuffer> list{{"scene (host)", tracing::surface_bytes(scene) + tree + object, true},
                                         {"caustic spheres (host)", task.bytes(), true},
                                         {"pictures of spheres (host)", picture_bytes(task), true}};
   if (!bakes) return list;
-  list.push_back({"one sphere's sums (host)", item_bytes, true});
+  list.push_back({"one sphere's sums (host)", sums, true});
   list.push_back({"tree", tree});
   list.push_back({"triangles", object});
   list.push_back({"spheres of one direction", task.film_bytes()});

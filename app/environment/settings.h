@@ -21,7 +21,7 @@ struct Settings {
   Radii radii = Radii::quadratic;     ///< how they grow
   double reach = 4;                   ///< radius of the largest, in largest sides of the box about the object
   int resolution = 360;               ///< texels across and down the map of a sphere: 360 are as many as 512 x 256
-  int photons = 1 << 18;              ///< that are sent from each direction
+  int photons = 160000;               ///< that are sent from each direction
   int lights = 24;                    ///< q: how many lights the map is cut into
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light

@@ -121,7 +121,7 @@ void add_figures(const Bake& bake, job::Snapshot& snapshot)
                            {"bake", "smallest_radius", bake.radii.front()},
                            {"bake", "largest_radius", bake.radii.back()},
                            {"bake", "channels", static_cast<double>(bake.channels)},
-                           {"bake", "bytes", static_cast<double>((bake.halves.size() + bake.ways.size()) * sizeof(std::uint16_t))}});
+                           {"bake", "bytes", static_cast<double>((bake.light.size() + bake.ways.size()) * sizeof(std::uint16_t))}});
   if (sum.met <= 0) return;
   snapshot.scalars.insert(snapshot.scalars.end(), {{"energy", "met", sum.met / static_cast<double>(bake.baked.size())},
                                                    {"energy", "sent", sum.sent / sum.met},

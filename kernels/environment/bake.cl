@@ -16,9 +16,9 @@
 #endif
 
 typedef struct {
-  volatile __global long* film; // [sphere][texel][channel]
-  volatile __global long* ways; // [sphere][texel][3]: power times the way it goes, in parts of STEEPEST
-  __global const float* radii;  // ascending
+  // [sphere][texel][channel], and after a texel's channels power times the way it goes, in parts of STEEPEST: what a photon adds to lies together.
+  volatile __global long* film;
+  __global const float* radii; // ascending
   int count, side;              // of the spheres; of a map
 } Spheres;
 
@@ -35,12 +35,13 @@ typedef struct {
 static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, float3 way, const Carried* carried)
 {
   const size_t texel = (size_t)sphere * (size_t)(spheres->side * spheres->side) + (size_t)sphere_texel(place, spheres->side);
-  for (int c = 0; c < NEPHROID_CHANNELS; ++c) add_exactly(spheres->film + NEPHROID_CHANNELS * texel + c, carried->channels[c]);
+  volatile __global long* const sums = spheres->film + (NEPHROID_CHANNELS + 3) * texel;
+  for (int c = 0; c < NEPHROID_CHANNELS; ++c) add_exactly(sums + c, carried->channels[c]);
   const float cosine = fabs(dot(place, way)) / spheres->radii[sphere];
   const float3 across = way * (carried->power / fmax(STEEPEST * cosine, 1.0f));
-  add_exactly(spheres->ways + 3 * texel, convert_long_rte(across.x));
-  add_exactly(spheres->ways + 3 * texel + 1, convert_long_rte(across.y));
-  add_exactly(spheres->ways + 3 * texel + 2, convert_long_rte(across.z));
+  add_exactly(sums + NEPHROID_CHANNELS, convert_long_rte(across.x));
+  add_exactly(sums + NEPHROID_CHANNELS + 1, convert_long_rte(across.y));
+  add_exactly(sums + NEPHROID_CHANNELS + 2, convert_long_rte(across.z));
 }
 
 // Marks each crossing of the way from `origin` up to `distance` along the unit vector `direction`. The way is nearest to the middle at
@@ -85,11 +86,11 @@ static inline Carried carried_by(__global const float4* light_rgb, const Band* b
 // Photons first .. first + count - 1 of a direction, whose number is its stream of random numbers. scale: quanta a watt. energy counts the
 // power, not its colour.
 __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb, __global const float* radii,
-                   volatile __global long* film, volatile __global long* ways, volatile __global long* energy, // [OUTCOME_COUNT]
+                   volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
                    int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count, float scale)
 {
   const World world = WORLD;
-  const Spheres spheres = {film, ways, radii, sphere_count, side};
+  const Spheres spheres = {film, radii, sphere_count, side};
   DeviceLight light = lights[0];
   light.direction = direction;
   long outcomes[OUTCOME_COUNT] = {0};

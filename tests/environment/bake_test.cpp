@@ -13,8 +13,8 @@ using environment::Bake;
 using std::numbers::pi;
 using testing::HasSubstr;
 
-/// Of a half float, at most: 11 bits. Texels with one, two, ... photons are rounded alike, so that it does not average out.
-constexpr double half_rounding = 0x1p-12;
+/// Of a float's upper half, at most: 8 bits. Texels with one, two, ... photons are rounded alike, so that it does not average out.
+constexpr double half_rounding = 0x1p-9;
 
 const glm::dvec3 slanted = glm::normalize(glm::dvec3(0.3, -0.8, 0.5));
 
@@ -254,9 +254,54 @@ TEST(Bake, IsOfTheObjectWhereverItStands)
   const auto [moved_key, moved] = key_and_bake(R"({"translate": [3, -70, 0.1], "rotate_deg": [10, 20, 30]})");
   const auto [scaled_key, scaled] = key_and_bake(R"({"scale": [1, 1.1, 1]})");
   EXPECT_EQ(key, moved_key);
-  EXPECT_EQ(bake.halves, moved.halves);
+  EXPECT_EQ(bake.light, moved.light);
   EXPECT_NE(key, scaled_key);
-  EXPECT_NE(bake.halves, scaled.halves);
+  EXPECT_NE(bake.light, scaled.light);
+}
+
+// The border of a map shows texels that are beside its edge on the sphere, and a bake has there what these have.
+TEST(Bake, GoesOnBeyondTheEdgesOfItsMap)
+{
+  const Bake bake = bake_of(bake_preset(glass_ball, {"environment.resolution=24", "environment.spheres=3"}), {slanted});
+  const std::vector<std::size_t> texels = bake.map.texels_of_stored();
+  ASSERT_EQ(texels.size(), bake.map.stored_texels());
+  ASSERT_EQ(bake.light.size(), 3 * texels.size());
+  const double across = std::sqrt(bake.map.solid_angle());
+  for (std::size_t i = 0; i < texels.size(); ++i) {
+    const std::size_t row = std::clamp<std::size_t>(i / 26, 1, 24), column = std::clamp<std::size_t>(i % 26, 1, 24),
+                      inside = row * 26 + column;
+    EXPECT_LT(glm::distance(bake.map.direction(texels[i]), bake.map.direction(texels[inside])), 2.5 * across) << i;
+    EXPECT_EQ(bake.map.stored_texel(texels[inside]), inside);
+    for (std::size_t first = 0; first < bake.light.size(); first += texels.size()) {
+      EXPECT_EQ(bake.light[first + i], bake.light[first + bake.map.stored_texel(texels[i])]) << i;
+      EXPECT_EQ(bake.ways[first + i], bake.ways[first + bake.map.stored_texel(texels[i])]) << i;
+    }
+  }
+}
+
+// Light along a flat mirror meets nothing of it.
+TEST(Bake, OfAnObjectThatNoPhotonMeetsIsBlack)
+{
+  const std::string quad = R"({"name": "quad", "shape": {"type": "quad", "size": [2, 1, 2]}, "material": "mirror"})";
+  const Bake bake =
+      bake_of(bake_preset(quad, {"environment.resolution=16", "environment.spheres=3", "environment.photons=1000"}), {{1, 0, 0}});
+  EXPECT_EQ(bake.baked[0].met, 0);
+  EXPECT_EQ(bake.baked[0].sent, 0);
+  EXPECT_EQ(std::ranges::count(bake.light, 0), static_cast<std::ptrdiff_t>(bake.light.size()));
+  for (std::size_t t = 0; t < bake.map.texels(); ++t) // goes straight away from the middle
+    EXPECT_EQ(bake.ways[bake.map.stored_texel(t)], Bake::way_map.texel(bake.map.direction(t)));
+}
+
+TEST(Bake, KnowsItsTimeLeftAfterADirection)
+{
+  const environment::BakeTask task =
+      environment::make_task(bake_preset(glass_ball, {"environment.resolution=16", "environment.photons=1000"}));
+  environment::Baker baker(task, bake_context());
+  EXPECT_EQ(baker.seconds_left(), std::nullopt);
+  while (baker.bake().baked.empty()) baker.step();
+  EXPECT_GT(baker.seconds_left().value(), 0);
+  while (!baker.finished()) baker.step();
+  EXPECT_EQ(baker.seconds_left(), 0);
 }
 
 class BakeFile : public testing::Test {
@@ -270,7 +315,7 @@ protected:
     bake.radii = {1, 2};
     bake.directions = environment::light_directions(26);
     bake.baked.resize(26);
-    bake.halves.resize(26 * bake.direction_items());
+    bake.light.assign(26 * bake.direction_items(), environment::upper_half(3));
     bake.ways.resize(26 * bake.direction_texels());
     environment::write_bake(file, identity, bake);
     bytes = read_file(file);
@@ -297,6 +342,15 @@ protected:
 };
 
 TEST_F(BakeFile, IsReadAsItWasWritten) { EXPECT_EQ(environment::read_bake(file, identity).baked.size(), 26u); }
+
+// Nothing of the file is needed once it is read: not if somebody cuts it then.
+TEST_F(BakeFile, MayBeCutWhileItsBakeIsInUse)
+{
+  const Bake bake = environment::read_bake(file, identity);
+  std::filesystem::resize_file(file, 1);
+  for (std::size_t t = 0; t < bake.map.texels(); ++t) EXPECT_EQ(bake.at(25, 1, t), glm::dvec3(3));
+  EXPECT_THAT(test::refusal_of([&] { environment::read_bake(file, identity); }), HasSubstr("a.bake: is no bake"));
+}
 
 TEST_F(BakeFile, HasCountsThatABakeCanHave)
 {

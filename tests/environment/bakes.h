@@ -40,7 +40,7 @@ inline void make_radial(environment::Bake& bake)
 {
   bake.ways.clear();
   for (std::size_t map = 0; map < bake.baked.size() * bake.radii.size(); ++map)
-    for (std::size_t t = 0; t < bake.map.texels(); ++t)
+    for (const std::size_t t : bake.map.texels_of_stored())
       bake.ways.push_back(static_cast<std::uint16_t>(environment::Bake::way_map.texel(bake.map.direction(t))));
 }
 

@@ -10,7 +10,7 @@ namespace nephroid::caustics_test {
 using namespace nephroid::environment;
 using scene::even_direction;
 
-constexpr double nine_bits = 1.0 / 256; ///< half of what the last bit is worth, of halves and of floats' upper halves
+constexpr double nine_bits = 1.0 / 256; ///< half of what the last bit of a float's upper half is worth
 
 /// of(direction of the bake, radius, place on its sphere): E r^2 over size^2, linear sRGB.
 template <class Of>
@@ -25,9 +25,9 @@ Bake made_bake(int side, int channels, const std::vector<double>& radii, const O
   bake.baked.resize(bake.directions.size());
   for (std::size_t i = 0; i < bake.directions.size(); ++i)
     for (const double radius : radii)
-      for (std::size_t t = 0; t < bake.map.texels(); ++t) {
+      for (const std::size_t t : bake.map.texels_of_stored()) {
         const glm::dvec3 value = of(i, radius, bake.map.direction(t));
-        for (int c = 0; c < channels; ++c) bake.halves.push_back(to_half(value[c] / Bake::unit));
+        for (int c = 0; c < channels; ++c) bake.light.push_back(upper_half(value[c]));
       }
   test::make_radial(bake);
   return bake;
@@ -36,6 +36,7 @@ Bake made_bake(int side, int channels, const std::vector<double>& radii, const O
 /// All texels of a cube of receivers, each at one distance of the list, or all at one.
 class Cast {
 public:
+  /// bake outlives it.
   Cast(const Bake& bake, int size, Technique technique = Technique::eight_sets)
       : caustics(bake, test::bake_context(), technique), size_(size),
         count_(6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size)), list_(test::bake_context(), "list", count_),
@@ -343,7 +344,8 @@ TEST(Caustics, TurnWithTheObjectAndItsLight)
 TEST(Caustics, OneChannelIsThreeAlike)
 {
   const auto of = [](std::size_t i, double r, const glm::dvec3& d) { return glm::dvec3(r * smooth(i, d).x); };
-  Cast one(made_bake(16, 1, {1, 2}, of), 8), three(made_bake(16, 3, {1, 2}, of), 8);
+  const Bake one_channel = made_bake(16, 1, {1, 2}, of), three_channels = made_bake(16, 3, {1, 2}, of);
+  Cast one(one_channel, 8), three(three_channels, 8);
   const std::vector<DistantLight> lights{{even_direction(4, 9), {1, 2, 3}}};
   one.caustics.set_lights(lights, glm::dmat3(1));
   three.caustics.set_lights(lights, glm::dmat3(1));

@@ -215,8 +215,8 @@ TEST_F(EnvironmentJob, ThePlanSaysWhatRuns)
     const auto found = std::ranges::find(plan.buffers, name, &plan::PlannedBuffer::name);
     return found == plan.buffers.end() ? 0 : found->bytes;
   };
-  EXPECT_EQ(bytes(plain, "caustic spheres (host)"), 26u * 3 * 256 * 2 * (1 + 1));
-  EXPECT_EQ(bytes(coloured, "caustic spheres (host)"), 26u * 3 * 256 * 2 * (3 + 1));
+  EXPECT_EQ(bytes(plain, "caustic spheres (host)"), 26u * 3 * 18 * 18 * 2 * (1 + 1));
+  EXPECT_EQ(bytes(coloured, "caustic spheres (host)"), 26u * 3 * 18 * 18 * 2 * (3 + 1));
   EXPECT_EQ(bytes(plain, "spheres of one direction"), 3u * 256 * 8 * (1 + 3));
 }
 

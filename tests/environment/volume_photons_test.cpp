@@ -38,7 +38,7 @@ Bake even_bake(double size)
   bake.radii = {1.1, 2, largest};
   bake.directions = environment::light_directions(26);
   bake.baked.resize(26);
-  bake.halves.assign(26 * bake.direction_items(), environment::to_half(even / Bake::unit));
+  bake.light.assign(26 * bake.direction_items(), environment::upper_half(even));
   make_radial(bake);
   return bake;
 }
@@ -177,7 +177,7 @@ Bake bake_for(const preset::Preset& preset, const glm::dvec3& light)
   Bake whole = task.empty_bake();
   whole.directions = task.directions;
   whole.baked.resize(task.directions.size());
-  whole.halves.assign(whole.direction_items() * task.directions.size(), 0);
+  whole.light.assign(whole.direction_items() * task.directions.size(), 0);
   whole.ways.assign(whole.direction_texels() * task.directions.size(), 0);
   std::vector<glm::dvec3> wanted;
   for (const environment::NearDirection& direction : near) wanted.push_back(task.directions[static_cast<std::size_t>(direction.direction)]);
@@ -187,7 +187,7 @@ Bake bake_for(const preset::Preset& preset, const glm::dvec3& light)
       std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * items), items,
                   to.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(near[i].direction) * items));
   };
-  copy(made.halves, whole.halves, made.direction_items());
+  copy(made.light, whole.light, made.direction_items());
   copy(made.ways, whole.ways, made.direction_texels());
   return whole;
 }

@@ -25,7 +25,7 @@ std::string hashed(std::string bytes)
 void read(std::string_view input)
 {
   std::string bytes(input);
-  const std::uint64_t begin[] = {3, hash_of(version()), identity.kernels, identity.key}; // after the file's eight letters
+  const std::uint64_t begin[] = {4, hash_of(version()), identity.kernels, identity.key}; // after the file's eight letters
   if (bytes.size() > 8 + sizeof begin) std::memcpy(bytes.data() + 8, begin, sizeof begin);
   const fs::path file = write("fuzz.bake", hashed(bytes));
   environment::bake_file_fault(file, identity);
@@ -42,7 +42,7 @@ std::vector<std::string> seeds()
   bake.radii = {1, 2};
   bake.directions = environment::light_directions(26);
   bake.baked.resize(26);
-  bake.halves.resize(26 * bake.direction_items());
+  bake.light.resize(26 * bake.direction_items());
   bake.ways.resize(26 * bake.direction_texels());
   environment::write_bake(folder() / "seed.bake", identity, bake);
   const std::string file = read_file(folder() / "seed.bake");

@@ -5,13 +5,12 @@
 #include "base/files.h"
 #include "base/hashed_bytes.h"
 
-#include <fmt/format.h>
-#include <glm/gtc/packing.hpp>
-
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <memory>
 
 namespace nephroid::environment {
@@ -27,10 +26,10 @@ glm::dvec2 with_signs(const glm::dvec2& size, const glm::dvec2& signs)
 
 constexpr std::array<int, 3> counts{26, 98, 386};
 
-/// NAME.bake: a header, radii, where light went, half floats, ways, and a hash of everything before it.
+/// NAME.bake: a header, radii, where light went, light, ways, and a hash of everything before it.
 struct Header {
   std::array<char, 8> magic{'N', 'E', 'P', 'H', 'B', 'A', 'K', 'E'};
-  std::uint64_t format = 3;
+  std::uint64_t format = 4;
   std::uint64_t program = 0, kernels = 0, key = 0;
   std::uint64_t directions = 0, spheres = 0, side = 0, channels = 0;
   double size = 0;
@@ -44,7 +43,7 @@ void read_items(ByteSource& from, std::vector<T>& items, std::uint64_t count)
   from.read(std::as_writable_bytes(std::span(items)));
 }
 
-std::uint64_t texels_of(const Header& h) { return h.directions * h.spheres * h.side * h.side; }
+std::uint64_t texels_of(const Header& h) { return h.directions * h.spheres * (h.side + 2) * (h.side + 2); }
 
 std::uint64_t length_of(const Header& h)
 {
@@ -120,6 +119,32 @@ glm::dvec3 SphereMap::direction(std::size_t texel) const
   return {with_signs({std::cos(azimuth) * sine, std::sin(azimuth) * sine}, place), std::copysign(1 - r * r, height)};
 }
 
+std::size_t SphereMap::stored_texel(std::size_t texel) const
+{
+  const auto n = static_cast<std::size_t>(side);
+  return (texel / n + 1) * (n + 2) + texel % n + 1;
+}
+
+std::vector<std::size_t> SphereMap::texels_of_stored() const
+{
+  std::vector<std::size_t> texels;
+  const int last = side - 1;
+  for (int row = -1; row <= side; ++row)
+    for (int column = -1; column <= side; ++column) {
+      const bool across = column < 0 || column > last, down = row < 0 || row > last;
+      const int x = std::clamp(column, 0, last), y = std::clamp(row, 0, last);
+      texels.push_back(static_cast<std::size_t>(across ? last - y : y) * static_cast<std::size_t>(side) +
+                       static_cast<std::size_t>(down ? last - x : x));
+    }
+  return texels;
+}
+
+std::uint16_t upper_half(double value)
+{
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  return static_cast<std::uint16_t>((bits + 0x7fff + (bits >> 16 & 1)) >> 16); // to the nearest, ties to even
+}
+
 std::span<const int> direction_counts() { return counts; }
 
 std::vector<glm::ivec3> cube_points(int count)
@@ -140,12 +165,11 @@ std::vector<glm::dvec3> light_directions(int count)
   return directions;
 }
 
-std::uint16_t to_half(double value) { return glm::packHalf1x16(static_cast<float>(value)); }
-
 glm::dvec3 Bake::at(std::size_t direction, std::size_t sphere, std::size_t texel) const
 {
-  const std::size_t first = direction * direction_items() + sphere * sphere_items() + texel * static_cast<std::size_t>(channels);
-  const auto channel = [&](std::size_t c) { return unit * static_cast<double>(glm::unpackHalf1x16(halves[first + c])); };
+  const std::size_t map_number = direction * radii.size() + sphere,
+                    first = (map_number * map.stored_texels() + map.stored_texel(texel)) * static_cast<std::size_t>(channels);
+  const auto channel = [&](std::size_t c) { return static_cast<double>(std::bit_cast<float>(std::uint32_t{light[first + c]} << 16)); };
   return channels == 3 ? glm::dvec3(channel(0), channel(1), channel(2)) : glm::dvec3(channel(0));
 }
 
@@ -180,7 +204,7 @@ Bake read_bake(const fs::path& file, const BakeIdentity& identity)
   read_items(from, bake.radii, header.spheres);
   read_items(from, bake.baked, header.directions);
   bake.directions = light_directions(static_cast<int>(header.directions));
-  read_items(from, bake.halves, texels_of(header) * header.channels);
+  read_items(from, bake.light, texels_of(header) * header.channels);
   read_items(from, bake.ways, texels_of(header));
   std::uint64_t hash = 0;
   source->value(hash);
@@ -208,7 +232,7 @@ void write_bake(const fs::path& file, const BakeIdentity& identity, const Bake& 
     to.value(header);
     to.write(std::as_bytes(std::span(bake.radii)));
     to.write(std::as_bytes(std::span(bake.baked)));
-    to.write(std::as_bytes(std::span(bake.halves)));
+    to.write(std::as_bytes(std::span(bake.light)));
     to.write(std::as_bytes(std::span(bake.ways)));
     sink.value(to.hash());
   });

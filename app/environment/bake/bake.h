@@ -31,7 +31,18 @@ struct SphereMap {
   std::size_t texel(const glm::dvec3& direction) const;
   /// The unit direction of a texel's middle.
   glm::dvec3 direction(std::size_t texel) const;
+
+  /// In their stored form maps have a border of one more texel all around, with what is over the edge: there the square goes on at the same
+  /// edge, from its other end. So what lies between texels is looked up without a branch.
+  std::size_t stored_texels() const { return static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2); }
+  std::size_t stored_texel(std::size_t texel) const; ///< where a texel is in the stored form
+  /// The texel that each of the stored form shows; texel_of_stored of kernels/environment/spheres.h, for all.
+  std::vector<std::size_t> texels_of_stored() const;
 };
+
+/// The upper half of the nearest float: what maps hold. Nine bits are more than the photons' noise leaves, and no device takes long over
+/// them.
+std::uint16_t upper_half(double value);
 
 /// How many directions light may be baked from: points of a cube's surface, towards its middle (thesis 3.1). Each face is a square grid
 /// whose points on edges and corners it shares with its neighbours: 3 x 3 points a face are 26 in all (8 corners, 12 middles of edges, 6 of
@@ -58,25 +69,19 @@ struct Bake {
   std::vector<double> radii;          ///< of the spheres, ascending
   std::vector<glm::dvec3> directions; ///< all that light is to come from, unit, the way it goes
   std::vector<BakedDirection> baked;  ///< the first of them
-  std::vector<std::uint16_t> halves;  ///< [baked direction][sphere][texel][channel]: E r^2 in `unit` of size^2
 
-  std::vector<std::uint16_t> ways; ///< [baked direction][sphere][texel]: of way_map: the mean way of its light, weighted by light across it
+  // As devices read them: [baked direction][sphere][texel of the stored form].
+  std::vector<std::uint16_t> light; ///< [channel] of each: upper halves of E r^2 over size^2
+  std::vector<std::uint16_t> ways;  ///< of way_map: the mean way of its light, weighted by light across it
 
   /// Numbers of unit vectors, some .8 degrees apart.
   static constexpr SphereMap way_map{256};
 
-  /// So that all light in one texel is still a half float.
-  static constexpr double unit = 16;
-
-  std::size_t sphere_items() const { return map.texels() * static_cast<std::size_t>(channels); }
-  std::size_t direction_texels() const { return map.texels() * radii.size(); }
-  std::size_t direction_items() const { return sphere_items() * radii.size(); }
+  std::size_t direction_texels() const { return map.stored_texels() * radii.size(); } ///< of the stored form
+  std::size_t direction_items() const { return direction_texels() * static_cast<std::size_t>(channels); }
   /// E r^2 over size^2, linear sRGB.
   glm::dvec3 at(std::size_t direction, std::size_t sphere, std::size_t texel) const;
 };
-
-/// The nearest half float.
-std::uint16_t to_half(double value);
 
 /// A bake kept on disk, so that a second start costs a read. The file has the name of its key in the folder of caches. It is written whole,
 /// and used only where it was made by this version of the program and its kernels for exactly this key, and is as long as it was.

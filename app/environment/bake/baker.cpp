@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 namespace nephroid::environment {
 namespace {
@@ -63,16 +64,18 @@ BakeTask make_task(const preset::Preset& preset)
 Baker::Baker(const BakeTask& task, const compute::Context& context)
     : task_(task), world_(tracing::make_world(context, task.caster.scene, task.bvh, task.tables, task.defines, task.seed)),
       light_rgb_(compute::Buffer(context, "white light", white_light())),
-      radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))), bake_(task.empty_bake())
+      radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))), bake_(task.empty_bake()),
+      texels_(bake_.map.texels_of_stored())
 {
+  for (std::size_t i = 0; i < bake_.map.texels(); ++i)
+    outward_.push_back(static_cast<std::uint16_t>(Bake::way_map.texel(bake_.map.direction(i))));
   // As kernels/tracing/emission.h has it: photons are spread over the discs of all targets, which may overlap.
   double discs = 0;
   for (const scene::Sphere& target : task.tables.spheres) discs += std::numbers::pi * target.radius * target.radius;
   watts_ = discs * std::pow(task.caster.scene.metres_per_unit, 2); // 1 W/m^2
-  bake_.halves.reserve(bake_.direction_items() * task.directions.size());
+  bake_.light.reserve(bake_.direction_items() * task.directions.size());
   bake_.ways.reserve(bake_.direction_texels() * task.directions.size());
-  film_ = world_.zeroed("spheres of one direction", bake_.direction_items());
-  ways_ = world_.zeroed("ways of one direction", 3 * bake_.direction_texels());
+  film_ = world_.zeroed("spheres of one direction", task.radii.size() * task.sums_a_sphere());
   energy_ = world_.zeroed("energy", OUTCOME_COUNT);
   kernel_ = compute::Program(context, "environment/bake.cl", world_.photon_defines()).kernel("bake");
 }
@@ -90,7 +93,6 @@ void Baker::step()
                         {"light_rgb", light_rgb_},
                         {"radii", radii_},
                         {"film", film_},
-                        {"ways", ways_},
                         {"energy", energy_},
                         {"sphere_count", static_cast<int>(task_.radii.size())},
                         {"side", task_.resolution},
@@ -105,21 +107,25 @@ void Baker::step()
   if (sent_ == task_.photons) finish_direction();
 }
 
+std::optional<double> Baker::seconds_left() const
+{
+  if (!seconds_a_direction_) return std::nullopt;
+  return *seconds_a_direction_ * (static_cast<double>(task_.directions.size() - bake_.baked.size()) - part());
+}
+
 void Baker::finish_sphere(std::size_t sphere, double scale)
 {
-  const std::size_t number = bake_.baked.size() * task_.radii.size() + sphere, items = bake_.sphere_items(), texels = bake_.map.texels();
-  std::vector<std::int64_t> sums(items), ways(3 * texels);
-  film_.RawBuffer::read(sums.data(), items * sizeof(std::int64_t), sphere * items * sizeof(std::int64_t));
-  ways_.RawBuffer::read(ways.data(), 3 * texels * sizeof(std::int64_t), 3 * sphere * texels * sizeof(std::int64_t));
-  std::uint16_t* const halves = bake_.halves.data() + number * items;
-  for_ranges(items, 1 << 14, [&](std::size_t, const Range& range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) halves[i] = to_half(scale * static_cast<double>(sums[i]));
-  });
-  std::uint16_t* const to = bake_.ways.data() + number * texels;
-  for_ranges(texels, 1 << 14, [&](std::size_t, const Range& range) {
+  const std::size_t channels = task_.sums_a_texel() - 3, first = (bake_.baked.size() * task_.radii.size() + sphere) * texels_.size();
+  std::vector<std::int64_t> sums(task_.sums_a_sphere());
+  const std::size_t bytes = sums.size() * sizeof(std::int64_t);
+  film_.RawBuffer::read(sums.data(), bytes, sphere * bytes);
+  for_ranges(texels_.size(), 1 << 14, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const glm::dvec3 way(ways[3 * i], ways[3 * i + 1], ways[3 * i + 2]);
-      to[i] = static_cast<std::uint16_t>(Bake::way_map.texel(way == glm::dvec3(0) ? bake_.map.direction(i) : way));
+      const std::int64_t* const of_texel = &sums[texels_[i] * task_.sums_a_texel()];
+      for (std::size_t c = 0; c < channels; ++c)
+        bake_.light[(first + i) * channels + c] = upper_half(scale * static_cast<double>(of_texel[c]));
+      const glm::dvec3 way(of_texel[channels], of_texel[channels + 1], of_texel[channels + 2]);
+      bake_.ways[first + i] = way == glm::dvec3(0) ? outward_[texels_[i]] : static_cast<std::uint16_t>(Bake::way_map.texel(way));
     }
   });
 }
@@ -128,17 +134,18 @@ void Baker::finish_direction()
 {
   const double size2 = std::pow(task_.caster.size * task_.caster.scene.metres_per_unit, 2);
   const double area_of_quantum = watts_ / (quanta_of_photon * task_.photons * size2); // in size^2
-  const double scale = area_of_quantum / (bake_.map.solid_angle() * Bake::unit);
-  bake_.halves.resize(bake_.halves.size() + bake_.direction_items());
+  const double scale = area_of_quantum / bake_.map.solid_angle();
+  bake_.light.resize(bake_.light.size() + bake_.direction_items());
   bake_.ways.resize(bake_.ways.size() + bake_.direction_texels());
   for (std::size_t sphere = 0; sphere < task_.radii.size(); ++sphere) finish_sphere(sphere, scale);
   const std::vector<std::int64_t> energy = energy_.read();
   const auto area = [&](std::size_t outcome) { return area_of_quantum * static_cast<double>(energy[outcome]); };
   bake_.baked.push_back({area(OUTCOME_EMITTED) - area(OUTCOME_MISSED), area(OUTCOME_ESCAPED), area(OUTCOME_ABSORBED), area(OUTCOME_LOST)});
   film_.fill_zero();
-  ways_.fill_zero();
   energy_.fill_zero();
   sent_ = 0;
+  const auto now = std::chrono::steady_clock::now();
+  seconds_a_direction_ = std::chrono::duration<double>(now - std::exchange(began_, now)).count();
 }
 
 void Baker::state(tracing::State& state)
@@ -148,13 +155,12 @@ void Baker::state(tracing::State& state)
   state.value(baked);
   if (state.is_read() && (baked > task_.directions.size() || sent_ >= task_.photons)) throw bad_input("checkpoint", "is of another run");
   bake_.baked.resize(baked);
-  bake_.halves.resize(baked * bake_.direction_items());
+  bake_.light.resize(baked * bake_.direction_items());
   bake_.ways.resize(baked * bake_.direction_texels());
   state.items(std::span(bake_.baked));
-  state.items(std::span(bake_.halves));
+  state.items(std::span(bake_.light));
   state.items(std::span(bake_.ways));
   state.buffer(film_);
-  state.buffer(ways_);
   state.buffer(energy_);
 }
 

@@ -8,7 +8,9 @@
 #include "tracing/step_size.h"
 #include "tracing/world.h"
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace nephroid::environment {
@@ -30,11 +32,10 @@ struct BakeTask {
   compute::Defines defines;
 
   Bake empty_bake() const;
-  std::uint64_t film_bytes() const
-  {
-    const Bake bake = empty_bake();
-    return static_cast<std::uint64_t>(bake.direction_items() + 3 * bake.direction_texels()) * sizeof(std::int64_t);
-  }
+  /// Of a sphere's texels: channels of the light, and three of its way.
+  std::size_t sums_a_texel() const { return coloured ? 6 : 4; }
+  std::size_t sums_a_sphere() const { return sums_a_texel() * SphereMap{resolution}.texels(); }
+  std::uint64_t film_bytes() const { return radii.size() * sums_a_sphere() * sizeof(std::int64_t); }
   /// Of all directions, in memory.
   std::uint64_t bytes() const
   {
@@ -56,6 +57,8 @@ public:
   bool finished() const { return bake_.baked.size() == task_.directions.size(); }
   /// Of the direction in hand, 0..1.
   double part() const { return static_cast<double>(sent_) / task_.photons; }
+  /// Until all is baked, if all goes on as it went with the last direction; nothing before the first is done.
+  std::optional<double> seconds_left() const;
   /// Sent so far.
   std::uint64_t photons() const { return bake_.baked.size() * std::uint64_t{task_.photons} + sent_; }
   const Bake& bake() const { return bake_; }
@@ -73,11 +76,15 @@ private:
   double watts_; ///< that all photons of a direction have together
   compute::Buffer<shared::float4> light_rgb_;
   compute::Buffer<float> radii_;
-  compute::Buffer<std::int64_t> film_, ways_, energy_;
+  compute::Buffer<std::int64_t> film_, energy_; ///< [sphere][texel][channels, then x, y and z of the way]
   compute::Kernel kernel_;
   tracing::StepSize photons_a_step_{8192};
-  std::uint32_t sent_ = 0; ///< of the direction in hand
   Bake bake_;
+  std::uint32_t sent_ = 0;                                                         ///< of the direction in hand
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(); ///< with the direction in hand
+  std::optional<double> seconds_a_direction_;                                      ///< that the one before it took
+  std::vector<std::size_t> texels_;                                                ///< SphereMap::texels_of_stored
+  std::vector<std::uint16_t> outward_;                                             ///< [texel]: the number of its direction among ways
 };
 
 } // namespace nephroid::environment

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment/light/caustics.h"
 
-#include "base/parallel.h"
-
-#include <glm/gtc/packing.hpp>
-
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <span>
@@ -19,68 +14,12 @@ namespace {
 
 constexpr std::size_t group = 32;
 
-/// Texels of a map in its stored form.
-std::size_t stored_texels(int side) { return static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2); }
-
 /// [number]: the unit way of Bake::ways.
 std::vector<shared::float4> all_ways()
 {
   std::vector<shared::float4> ways;
   for (std::size_t i = 0; i < Bake::way_map.texels(); ++i) ways.push_back(tracing::to_float4(Bake::way_map.direction(i)));
   return ways;
-}
-
-/// texel_of_stored of kernels/environment/spheres.h, for all.
-std::vector<std::size_t> texels_of_stored(int side)
-{
-  std::vector<std::size_t> texels;
-  const int last = side - 1;
-  for (int row = -1; row <= side; ++row)
-    for (int column = -1; column <= side; ++column) {
-      const bool across = column < 0 || column > last, down = row < 0 || row > last;
-      const int x = std::clamp(column, 0, last), y = std::clamp(row, 0, last);
-      texels.push_back(static_cast<std::size_t>(across ? last - y : y) * static_cast<std::size_t>(side) +
-                       static_cast<std::size_t>(down ? last - x : x));
-    }
-  return texels;
-}
-
-/// Half floats as the upper halves of floats, by half float.
-std::vector<std::uint16_t> upper_halves()
-{
-  std::vector<std::uint16_t> of(std::size_t{1} << 16);
-  for (std::size_t half = 0; half < of.size(); ++half) {
-    const auto bits = std::bit_cast<std::uint32_t>(glm::unpackHalf1x16(static_cast<std::uint16_t>(half)));
-    of[half] = static_cast<std::uint16_t>((bits + 0x7fff + (bits >> 16 & 1)) >> 16); // to the nearest, ties to even
-  }
-  return of;
-}
-
-/// [map][texel][channel] of maps with `side` texels a side, as kernels read it: each number by of(number).
-template <class Of>
-std::vector<std::uint16_t> stored_form(const std::vector<std::uint16_t>& items, int side, std::size_t channels, const Of& of)
-{
-  const std::vector<std::size_t> texels = texels_of_stored(side);
-  const std::size_t map_items = static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * channels, maps = items.size() / map_items;
-  std::vector<std::uint16_t> stored(maps * texels.size() * channels);
-  for_blocks(maps, [&](std::size_t map) {
-    const std::uint16_t* from = items.data() + map * map_items;
-    std::uint16_t* to = stored.data() + map * texels.size() * channels;
-    for (const std::size_t texel : texels)
-      for (std::size_t c = 0; c < channels; ++c) *to++ = of(from[texel * channels + c]);
-  });
-  return stored;
-}
-
-std::vector<std::uint16_t> stored_light(const Bake& bake)
-{
-  const std::vector<std::uint16_t> upper = upper_halves();
-  return stored_form(bake.halves, bake.map.side, static_cast<std::size_t>(bake.channels), [&](std::uint16_t half) { return upper[half]; });
-}
-
-std::vector<std::uint16_t> stored_ways(const Bake& bake)
-{
-  return stored_form(bake.ways, bake.map.side, 1, [](std::uint16_t way) { return way; });
 }
 
 /// Eight after eight. direction_texels: of all that are stored of one direction.
@@ -109,19 +48,15 @@ bool has_launches(Technique t) { return t != Technique::direct && t != Technique
 } // namespace
 
 Caustics::Caustics(const Bake& bake, const compute::Context& context, Technique technique)
-    : context_(context),
-      directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
-                                                                      static_cast<float>(Bake::unit * bake.size * bake.size), 0},
+    : context_(context), directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
+                                                                                         static_cast<float>(bake.size * bake.size), 0},
       way_of_(compute::Buffer(context, "ways", all_ways())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))), sets_(context, "turned sets", 1)
 {
   const auto channels = static_cast<std::size_t>(bake.channels);
-  {
-    const std::vector<std::uint16_t> light = stored_light(bake);
-    stored_ = compute::Buffer(context, "caustic spheres", light);
-    if (technique != Technique::eight_sets) one_by_one_.emplace(technique, light, bake.directions.size(), channels, context);
-  }
-  ways_ = compute::Buffer(context, "ways through spheres", stored_ways(bake));
+  stored_ = compute::Buffer<std::uint16_t>::of_host(context, "caustic spheres", bake.light);
+  ways_ = compute::Buffer<std::uint16_t>::of_host(context, "ways through spheres", bake.ways);
+  if (technique != Technique::eight_sets) one_by_one_.emplace(technique, bake.light, bake.directions.size(), channels, context);
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
   cast_ = program.kernel("cast");
@@ -130,12 +65,15 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, Technique 
 
 std::uint64_t Caustics::bytes(const Bake& bake, Technique technique)
 {
-  const std::size_t texels = stored_texels(bake.map.side) * bake.radii.size(), directions = bake.directions.size(),
+  const std::size_t texels = bake.direction_texels(), directions = bake.directions.size(),
                     channels = static_cast<std::size_t>(bake.channels);
   return sizeof(std::uint16_t) * directions * texels * (channels + 1) + OneByOne::bytes(technique, texels, directions, channels);
 }
 
-std::uint64_t Caustics::air_bytes(const Bake& bake, int side) { return 6 * sizeof(float) * stored_texels(side) * bake.radii.size(); }
+std::uint64_t Caustics::air_bytes(const Bake& bake, int side)
+{
+  return 6 * sizeof(float) * SphereMap{side}.stored_texels() * bake.radii.size();
+}
 
 template <class Work>
 void Caustics::timed(const Work& work)
@@ -150,7 +88,7 @@ void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dm
   timed([&] {
     const std::vector<TurnedSet> sets = turned_sets(lights, rotation, directions_);
     const std::vector<shared::DeviceEightSets> eights =
-        eights_of(sets, stored_texels(spheres_.side) * static_cast<std::size_t>(spheres_.count));
+        eights_of(sets, SphereMap{spheres_.side}.stored_texels() * static_cast<std::size_t>(spheres_.count));
     if (eights.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
     if (!eights.empty()) sets_.write(eights);
     used_eights_ = static_cast<int>(eights.size());
@@ -166,7 +104,7 @@ TurnedSpheres Caustics::turned() const { return {stored_, radii_, sets_, spheres
 void Caustics::compile_air(int side)
 {
   air_.spheres = {spheres_.count, side, 1, 0};
-  const std::size_t items = stored_texels(side) * static_cast<std::size_t>(spheres_.count);
+  const std::size_t items = SphereMap{side}.stored_texels() * static_cast<std::size_t>(spheres_.count);
   if (air_.light.size() < 6 * items) air_.light = compute::Buffer<float>(context_, "light in the air", 6 * items);
   const auto count = static_cast<std::uint32_t>(items);
   compile_air_.run(count, group,

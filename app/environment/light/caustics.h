@@ -75,7 +75,7 @@ private:
 
 class Caustics {
 public:
-  /// Throws failed where the device has not enough memory.
+  /// bake outlives it. Throws failed where the device has not enough memory.
   Caustics(const Bake& bake, const compute::Context& context, Technique technique = Technique::eight_sets);
 
   /// On a device.
