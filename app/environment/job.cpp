@@ -73,7 +73,9 @@ public:
       const double seen = renderer_ ? static_cast<double>(renderer_->passes()) + renderer_->part() : 0;
       p.work = photons_ ? photons_->progress().work : static_cast<std::uint64_t>(seen * width_ * height_);
       if (!refines()) p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
-      const double rendered = passes_ > 0 ? std::min(seen / static_cast<double>(passes_), 1.0) : 0;
+      const double sent = photons_ ? static_cast<double>(photons_->rounds()) / photon_rounds : seen; // passes of photons
+      const auto part = [&](double passes) { return passes_ > 0 ? std::min(passes / static_cast<double>(passes_), 1.0) : 0; };
+      const double rendered = std::min((part(seen) + part(sent)) / 2, 0.999); // maps of photons come last
       // A bake takes about as long as all passes.
       p.fraction = baker_ ? 0.5 * baked_part() : bake_seconds_ > 0 ? 0.5 + 0.5 * rendered : rendered;
     } else {
@@ -197,7 +199,7 @@ private:
     if (!refines() || (asked_for_photons_ && !photons_)) return false;
     if (!photons_) return true;
     const std::int64_t passes = renderer_->passes(), rounds = std::max(2 * (passes + 1), photon_rounds * (passes - 1) + 2);
-    return photons_->rounds() < rounds + rounds_ahead_ && photons_->progress().step < most_passes();
+    return photons_->progress().step < most_passes() && (passes >= most_passes() || photons_->rounds() < rounds + rounds_ahead_);
   }
 
   void send_photons()
