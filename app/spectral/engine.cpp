@@ -72,10 +72,10 @@ constinit const engine::Engine engine{
     .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) -> std::unique_ptr<plan::Plan> {
       return std::make_unique<photons::RunPlan>(make_plan(preset, scene, bvh));
     },
-    .job =
-        [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
-           const compute::Context& context) -> std::unique_ptr<job::Job> { return photons::make_job(preset, scene, bvh, dynamic_cast<const photons::RunPlan&>(plan), context);
-        },
+    .job = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
+              const compute::Context& context) -> std::unique_ptr<job::Job> {
+      return photons::make_job(preset, scene, bvh, dynamic_cast<const photons::RunPlan&>(plan), context);
+    },
     .reference = reference,
     .checks = closed_forms,
     .adoptable = adoptable,
