@@ -16,10 +16,10 @@ struct RunTables : tracing::SceneTables {
   unsigned rounds = 1;                         ///< Settings::rounds
   unsigned eye_paths = 1;                      ///< that gather photons, of a pixel in a pass (maps/photon_map.h)
   unsigned photons_per_pass() const { return rounds * photons_per_round; }
-  std::vector<double> importance;              ///< [cluster] 0..1, the largest 1: see ClusterShares
-  double caustic_scale = 1, direct_scale = 1;  ///< film quanta per unit of XYZ radiance, powers of two
-  double direct_limit = 1;                     ///< quanta that one contribution to the direct film may have
-  double energy_scale = 1;                     ///< energy quanta per watt, a power of two
+  std::vector<double> importance;             ///< [cluster] 0..1, the largest 1: see ClusterShares
+  double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two
+  double direct_limit = 1;                    ///< quanta that one contribution to the direct film may have
+  double energy_scale = 1;                    ///< energy quanta per watt, a power of two
 };
 
 /// For the lights as they are (relight/layer_light.h: for lights to come). Throws bad_input as tracing::make_scene_tables does, for a
