@@ -26,7 +26,8 @@ int coarse_side(int side) { return std::max(side / 4, 8); }
 
 std::uint64_t Renderer::bytes_a_pixel(const RenderTask& task)
 {
-  return ends_of_pixel(task) * sizeof(shared::DeviceEnd) + 2 * 3 * sizeof(float) * (layer_names.size() + (task.has_medium ? 1 : 0));
+  return ends_of_pixel(task) * sizeof(shared::DeviceEnd) +
+         std::uint64_t{6} * sizeof(float) * (layer_names.size() + (task.has_medium ? 1 : 0));
 }
 
 std::uint64_t Renderer::receiver_bytes() { return Receivers::bytes(coarse_receivers) + Receivers::bytes(fine_receivers); }
@@ -270,9 +271,10 @@ std::vector<Renderer::Layer> Renderer::layers() const
     Layer result{name, std::vector<float>(values), std::vector<float>(pass_ >= 2 ? values : 0)};
     for_ranges(values, 1 << 14, [&](std::size_t, const Range& range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {
-        std::array<double, 2> samples{static_cast<double>((pass_ + 1) / 2), static_cast<double>(pass_ / 2)};
+        std::array<std::int64_t, 2> passes{(pass_ + 1) / 2, pass_ / 2};
         // The pixels before these have had the pass in hand as well. The coarse picture is one sample.
-        if (i < 3 * ahead || pass_ == 0) samples[half()] = static_cast<double>(pass_ / 2 + 1);
+        if (i < 3 * ahead || pass_ == 0) passes[half()] = pass_ / 2 + 1;
+        const std::array<double, 2> samples{static_cast<double>(passes[0]), static_cast<double>(passes[1])};
         const double all = samples[0] + samples[1], a = halves[0][i], b = samples[1] > 0 ? halves[1][i] : 0;
         result.rgb[i] = static_cast<float>((a + b) / (white_ * all));
         if (pass_ >= 2)
