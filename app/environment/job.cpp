@@ -42,12 +42,12 @@ public:
   void step() override
   {
     const auto begin = Clock::now();
-    const bool rests = !renderer_ || (!wants_photons() && renderer_->passes() >= most_passes());
+    const bool photons_next = wants_photons(), rests = !renderer_ || (!photons_next && renderer_->passes() >= most_passes());
     bakes_next_ = baker_ && (rests || !bakes_next_); // else by turns
-    double& seconds = bakes_next_ ? bake_seconds_ : wants_photons() ? photon_seconds_ : render_seconds_;
+    double& seconds = bakes_next_ ? bake_seconds_ : photons_next ? photon_seconds_ : render_seconds_;
     if (bakes_next_)
       bake();
-    else if (wants_photons())
+    else if (photons_next)
       send_photons();
     else
       renderer_->step();
@@ -223,9 +223,9 @@ private:
   std::shared_ptr<const job::Picture> picture()
   {
     std::vector<Renderer::Layer> seen = renderer_->layers();
-    Renderer::Layer &direct = seen[1], &caustic = seen[2];
-    const Renderer::Layer smooth = std::move(seen[3]);
-    seen.erase(seen.begin() + 3);
+    Renderer::Layer &direct = seen[Renderer::direct], &caustic = seen[Renderer::caustic];
+    const Renderer::Layer smooth = std::move(seen[Renderer::smooth]);
+    seen.erase(seen.begin() + Renderer::smooth);
     if (refines() && direct.draw.empty()) direct.rgb = smooth.rgb;
     if (photons_ && photons_->rounds() >= 2) {
       photons_->smooth(direct.rgb, direct.draw, smooth.rgb);

@@ -263,7 +263,7 @@ private:
   void add_smooth_caustics(job::Picture& picture)
   {
     job::Picture caustics = black();
-    bool lacks_maps = false;
+    bool lacks_maps = false; // as they come after all rounds of a pass; until then glass shows what is known otherwise
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (stages_[s].caustics && stages_[s].stage->has_halves(at_.pass))
         stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);

@@ -39,7 +39,7 @@ public:
   virtual void set_estimate(std::vector<float> caustics) = 0;
   /// Smoothing::spread of light on the same surfaces. Where the run smooths nothing, nothing changes.
   virtual void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) = 0;
-  /// Of pictures from now on. While estimates are of another one there must be none.
+  /// Of pictures from now on; an estimate is over the same.
   virtual void set_white(double white) = 0;
   /// Of photons that are splatted, complete ones: Settings::rounds a pass.
   virtual std::int64_t rounds() const = 0;

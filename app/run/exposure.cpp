@@ -24,10 +24,10 @@ double middle_luminance(const std::vector<float>& rgb)
   for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
     if (const double y = measure::luminance(&rgb[i]); y > 0 && std::isfinite(y)) luminances.push_back(y);
   std::ranges::sort(luminances);
-  double all = 0, below = 0;
-  for (const double y : luminances) all += std::sqrt(y);
+  double weight = 0, below = 0;
+  for (const double y : luminances) weight += std::sqrt(y);
   for (const double y : luminances)
-    if ((below += std::sqrt(y)) >= all / 2) return y;
+    if ((below += std::sqrt(y)) >= weight / 2) return y;
   return 0;
 }
 

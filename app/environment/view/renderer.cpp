@@ -275,10 +275,10 @@ std::vector<Renderer::Layer> Renderer::layers() const
         // The pixels before these have had the pass in hand as well. The coarse picture is one sample.
         if (i < 3 * ahead || pass_ == 0) passes[half()] = pass_ / 2 + 1;
         const std::array<double, 2> samples{static_cast<double>(passes[0]), static_cast<double>(passes[1])};
-        const double all = samples[0] + samples[1], a = halves[0][i], b = samples[1] > 0 ? halves[1][i] : 0;
-        result.rgb[i] = static_cast<float>((a + b) / (white_ * all));
+        const double count = samples[0] + samples[1], a = halves[0][i], b = samples[1] > 0 ? halves[1][i] : 0;
+        result.rgb[i] = static_cast<float>((a + b) / (white_ * count));
         if (pass_ >= 2)
-          result.draw[i] = static_cast<float>((a / samples[0] - b / samples[1]) * std::sqrt(samples[0] * samples[1]) / (white_ * all));
+          result.draw[i] = static_cast<float>((a / samples[0] - b / samples[1]) * std::sqrt(samples[0] * samples[1]) / (white_ * count));
       }
     });
     return result;

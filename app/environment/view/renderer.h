@@ -44,7 +44,8 @@ public:
     std::vector<float> rgb;
     std::vector<float> draw; ///< of its error, as job::Picture::error_draw; empty until there are two passes
   };
-  /// background, direct, caustic, smooth and, in a medium, volume. smooth: the layer direct without noise and without shadows.
+  /// Places in layers(). smooth: the layer direct without noise and without shadows. volume: in a medium only.
+  enum : std::size_t { background, direct, caustic, smooth, volume };
   std::vector<Layer> layers() const;
 
   /// Each begins anew with a coarse picture. where: FILE#/scene/camera.
