@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sums of one channel of a picture over any square, from four numbers each (Crow 1984, "Summed-area tables for texture mapping").
 #pragma once
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -9,19 +11,24 @@ namespace nephroid {
 
 class SummedArea {
 public:
-  /// value(pixel): the channel of a pixel, row by row from the top.
+  /// value(pixel): the channel of a pixel, row by row from the top; called on every core.
   template <class Value>
   SummedArea(int width, int height, const Value& value) : width_(width), height_(height)
   {
     const std::size_t stride = static_cast<std::size_t>(width) + 1;
     sums_.assign(stride * (static_cast<std::size_t>(height) + 1), 0.0);
-    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
-      double row = 0;
-      for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
-        row += value(y * static_cast<std::size_t>(width) + x);
-        sums_[(y + 1) * stride + x + 1] = sums_[y * stride + x + 1] + row;
+    const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+    constexpr std::size_t rows_of_a_block = 32, columns_of_a_block = 64;
+    for_ranges(rows, rows_of_a_block, [&](std::size_t, Range block) {
+      for (std::size_t y = block.begin; y < block.end; ++y) {
+        double sum = 0;
+        for (std::size_t x = 0; x < columns; ++x) sums_[(y + 1) * stride + x + 1] = sum += value(y * columns + x);
       }
-    }
+    });
+    for_ranges(columns, columns_of_a_block, [&](std::size_t, Range block) {
+      for (std::size_t y = 1; y < rows; ++y)
+        for (std::size_t x = block.begin + 1; x <= block.end; ++x) sums_[(y + 1) * stride + x] += sums_[y * stride + x];
+    });
   }
 
   /// Over the square that reaches so many pixels to each side of (x, y), as much of it as is in the picture.

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -21,7 +22,7 @@ namespace {
 
 /// How far a kernel may reach, and how far around a pixel its noise is asked for, in pixels.
 constexpr int reach = 6, noise_reach = 7;
-constexpr std::size_t block_rows = 64;
+constexpr std::size_t block_rows = 64, block_pixels = 1 << 12;
 
 /// Two pixels are on one nearly flat part where their normals and the way between them are within about 25 and 30 degrees of it.
 constexpr float least_cosine = 0.9f, most_rise = 0.5f;
@@ -40,15 +41,23 @@ struct Offset {
 };
 
 /// The pixels within reach, nearest first.
-const std::vector<Offset>& offsets()
+struct Reach {
+  std::vector<Offset> offsets;
+  std::vector<std::uint32_t> ring_ends; ///< of those equally far away: one past the last
+};
+
+const Reach& within_reach()
 {
-  static const std::vector<Offset> sorted = [] {
-    std::vector<Offset> offsets;
+  static const Reach sorted = [] {
+    Reach within;
     for (int y = -reach; y <= reach; ++y)
       for (int x = -reach; x <= reach; ++x)
-        if (x * x + y * y <= reach * reach) offsets.push_back({x, y});
-    std::ranges::stable_sort(offsets, [](const Offset& a, const Offset& b) { return a.distance2() < b.distance2(); });
-    return offsets;
+        if (x * x + y * y <= reach * reach) within.offsets.push_back({x, y});
+    std::ranges::stable_sort(within.offsets, {}, &Offset::distance2);
+    for (std::size_t end = 1; end <= within.offsets.size(); ++end)
+      if (end == within.offsets.size() || within.offsets[end].distance2() > within.offsets[end - 1].distance2())
+        within.ring_ends.push_back(static_cast<std::uint32_t>(end));
+    return within;
   }();
   return sorted;
 }
@@ -195,19 +204,19 @@ struct PixelSight {
 struct Seeing {
   int width, height;
   std::span<const Smoothing::Level> level; ///< [pixel]
+  std::vector<std::size_t> steps = {};     ///< [of the pixels within reach]: to be added to a pixel's number, modulo 2^64
+  Seeing(int columns, int rows, std::span<const Smoothing::Level> levels) : width(columns), height(rows), level(levels)
+  {
+    for (const Offset& o : within_reach().offsets) steps.push_back(static_cast<std::size_t>(std::ptrdiff_t{o.y} * width + o.x));
+  }
 };
 
-/// Where a pixel's light may go: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step.
+/// Where a pixel's light goes: evenly, but for the outermost ring of pixels, which gets so much less that kernels change without a step,
+/// and as each pixel is favoured.
 struct Kernel {
-  std::vector<std::size_t> pixels; ///< nearest first
-  std::size_t inside = 0;          ///< of `pixels`, those before the outermost ring
-  double ring_weight = 1;          ///< of a pixel of that ring, 0..1
-};
-
-/// What says where light goes, [pixel].
-struct Weights {
-  std::span<const double> light, wanted; ///< of find_kernel
-  std::span<const double> favour;        ///< that a pixel finds in every kernel
+  std::uint32_t inside = 0, end = 0; ///< of the pixels within reach, those before the outermost ring, and with it
+  double ring_weight = 1;            ///< of a pixel of that ring, 0..1
+  double scale = 1;                  ///< makes all weights 1 together
 };
 
 bool are_level(const PixelSight& a, const PixelSight& b)
@@ -217,117 +226,82 @@ bool are_level(const PixelSight& a, const PixelSight& b)
   return glm::dot(n, m) > least_cosine && std::abs(glm::dot(way, n + m)) <= 2 * most_rise * glm::length(way);
 }
 
-/// The one of pixel i that holds `wanted` of `light`, or reaches as far as any may.
-void find_kernel(const Seeing& at, std::size_t i, double wanted, std::span<const double> light, Kernel& kernel)
+/// Calls work(j) for each pixel j that pixel i may give light to, of those with the numbers begin..end-1 within reach.
+template <class Work>
+void for_level(const Seeing& at, std::size_t i, std::uint32_t begin, std::uint32_t end, const Work& work)
 {
-  kernel.pixels.clear();
-  kernel.inside = 0;
-  kernel.ring_weight = 1;
-  double inside = 0, ring = 0;
-  int distance2 = 0;
-  for (std::size_t number = 0; number < offsets().size(); ++number) {
-    const Offset& o = offsets()[number];
-    if (o.distance2() > distance2) {
-      if (inside + ring >= wanted) break;
-      inside += std::exchange(ring, 0);
-      kernel.inside = kernel.pixels.size();
-      distance2 = o.distance2();
-    }
-    if (!at.level[i][number]) continue;
-    const auto j = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + std::ptrdiff_t{o.y} * at.width + o.x);
-    kernel.pixels.push_back(j);
-    ring += light[j];
+  constexpr std::uint32_t bits = 64;
+  for (std::uint32_t word = begin / bits; word * bits < end; ++word) {
+    std::uint64_t level = at.level[i][word];
+    if (begin > word * bits) level &= ~std::uint64_t{0} << (begin - word * bits);
+    if (end - word * bits < bits) level &= (std::uint64_t{1} << (end - word * bits)) - 1;
+    for (; level != 0; level &= level - 1) work(i + at.steps[word * bits + static_cast<std::uint32_t>(std::countr_zero(level))]);
   }
-  if (kernel.inside > 0 && ring > 0) kernel.ring_weight = std::clamp((wanted - inside) / ring, 0.0, 1.0);
 }
 
-/// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j: as its kernel has it times
-/// favour[j]; a pixel's parts are 1 together. On every core, each with its own j.
+/// Those that hold `wanted` of `light`, or reach as far as any may; [pixel].
+std::vector<Kernel> find_kernels(const Seeing& at, std::span<const double> light, std::span<const double> wanted,
+                                 std::span<const double> favour)
+{
+  std::vector<Kernel> kernels(light.size());
+  for_ranges(kernels.size(), block_pixels, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      Kernel kernel;
+      double inside = 0, ring = 0, favours = 0, ring_favours = 0;
+      for (const std::uint32_t end : within_reach().ring_ends) {
+        if (kernel.end > 0 && inside + ring >= wanted[i]) break;
+        inside += std::exchange(ring, 0);
+        favours += std::exchange(ring_favours, 0);
+        kernel.inside = kernel.end;
+        for_level(at, i, std::exchange(kernel.end, end), end, [&](std::size_t j) { ring += light[j], ring_favours += favour[j]; });
+      }
+      if (kernel.inside > 0 && ring > 0) kernel.ring_weight = std::clamp((wanted[i] - inside) / ring, 0.0, 1.0);
+      kernel.scale = 1 / (favours + kernel.ring_weight * ring_favours);
+      kernels[i] = kernel;
+    }
+  });
+  return kernels;
+}
+
+/// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j. On every core, each with its own j.
 template <class Needed, class Give>
-void give_parts(const Seeing& at, const Weights& by, const Needed& needed, const Give& give)
+void give_parts(const Seeing& at, std::span<const Kernel> kernels, std::span<const double> favour, const Needed& needed, const Give& give)
 {
   // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of cores.
   for_ranges(static_cast<std::size_t>(at.height), block_rows, [&](std::size_t, Range rows) {
     const std::size_t width = static_cast<std::size_t>(at.width), first = rows.begin * width, end = rows.end * width;
     const std::size_t from = (rows.begin - std::min<std::size_t>(rows.begin, reach)) * width;
     const std::size_t to = std::min<std::size_t>(rows.end + reach, static_cast<std::size_t>(at.height)) * width;
-    Kernel kernel;
     for (std::size_t i = from; i < to; ++i) {
       if (!needed(i)) continue;
-      find_kernel(at, i, by.wanted[i], by.light, kernel);
-      const auto weight = [&](std::size_t k) { return (k < kernel.inside ? 1 : kernel.ring_weight) * by.favour[kernel.pixels[k]]; };
-      double sum = 0;
-      for (std::size_t k = 0; k < kernel.pixels.size(); ++k) sum += weight(k);
-      for (std::size_t k = 0; k < kernel.pixels.size(); ++k)
-        if (const std::size_t j = kernel.pixels[k]; j >= first && j < end) give(i, j, weight(k) / sum);
+      const Kernel& kernel = kernels[i];
+      const auto give_to = [&](std::uint32_t begin, std::uint32_t past, double weight) {
+        for_level(at, i, begin, past, [&](std::size_t j) {
+          if (j >= first && j < end) give(i, j, weight * favour[j]);
+        });
+      };
+      give_to(0, kernel.inside, kernel.scale);
+      give_to(kernel.inside, kernel.end, kernel.scale * kernel.ring_weight);
     }
   });
 }
 
-/// Of what a pixel has, `share` is spread; the rest stays. error_draw: may be empty.
-void spread_shares(const Seeing& at, const Weights& by, std::span<const float> share, std::vector<float>& rgb,
-                   std::vector<float>& error_draw)
+/// Of what each pixel of a picture has, `share` is spread by the kernels; the rest stays.
+void spread_shares(const Seeing& at, std::span<const Kernel> kernels, std::span<const double> favour, std::span<const float> share,
+                   std::vector<float>& rgb)
 {
-  const std::vector<float> rgb_kept = rgb, draw_kept = error_draw;
-  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = (1 - share[i / 3]) * rgb_kept[i];
-  for (std::size_t i = 0; i < error_draw.size(); ++i) error_draw[i] = (1 - share[i / 3]) * draw_kept[i];
-  const auto is_zero = [](const std::vector<float>& v, std::size_t i) {
-    return v.empty() || (v[3 * i] == 0 && v[3 * i + 1] == 0 && v[3 * i + 2] == 0);
-  };
-  give_parts(
-      at, by, [&](std::size_t i) { return share[i] > 0 && (!is_zero(rgb_kept, i) || !is_zero(draw_kept, i)); },
-      [&](std::size_t i, std::size_t j, double part) {
-        const float given = share[i] * static_cast<float>(part);
-        for (std::size_t c = 0; c < 3; ++c) rgb[3 * j + c] += given * rgb_kept[3 * i + c];
-        if (!draw_kept.empty())
-          for (std::size_t c = 0; c < 3; ++c) error_draw[3 * j + c] += given * draw_kept[3 * i + c];
-      });
-}
-
-/// Of each pixel's light, what is for the better spread. rgb_spread: with all of it spread.
-std::vector<float> shares(const Seeing& at, const Weights& by, const std::vector<float>& rgb, const std::vector<float>& error_draw,
-                          const std::vector<float>& rgb_spread)
-{
-  const std::vector<float> whole(at.level.size(), 1);
-  std::vector<float> a(rgb.size()), b(rgb.size()), none;
-  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), a.begin(), std::plus());
-  std::transform(rgb.begin(), rgb.end(), error_draw.begin(), b.begin(), std::minus());
-  for (std::vector<float>* half : {&a, &b}) {
-    const std::vector<double> light = light_of(*half);
-    spread_shares(at, {light, by.wanted, by.favour}, whole, *half, none);
-  }
-  return worthwhile_shares(rgb, error_draw, rgb_spread, a, b, by.light, at.width, at.height);
-}
-
-/// Adds to a picture of which shares are spread, and to the draw of its error, what is known otherwise as far as that is for the better: as
-/// it is, or with the light that it has too little or too much of around each pixel. rgb, error_draw: before.
-void mix_with_known(const Seeing& at, const Weights& by, std::span<const float> share, const std::vector<float>& rgb,
-                    const std::vector<float>& error_draw, std::span<const float> known, std::vector<float>& rgb_spread,
-                    std::vector<float>& draw_spread)
-{
-  struct Version {
-    std::vector<float> picture, known;
-  };
-  // The picture or one of its halves, spread by its own light, and what is known spread by the same.
-  const auto spread = [&](float sign) {
-    Version version{rgb, {known.begin(), known.end()}};
-    for (std::size_t i = 0; i < rgb.size(); ++i) version.picture[i] += sign * error_draw[i];
-    const std::vector<double> light = light_of(version.picture);
-    spread_shares(at, {light, by.wanted, by.favour}, share, version.picture, version.known);
-    return version;
-  };
-  Version whole = spread(0);
-  const Version a = spread(1), b = spread(-1);
-  Estimate as_known{std::vector<float>(rgb.size()), std::vector<float>(rgb.size())}, evened = as_known;
-  rgb_spread = std::move(whole.picture);
+  using Colour = std::array<float, 4>; // four numbers are added as fast as one
+  std::vector<Colour> given(at.level.size()), kept(at.level.size());
   for (std::size_t i = 0; i < rgb.size(); ++i) {
-    draw_spread[i] = (a.picture[i] - b.picture[i]) / 2;
-    as_known.change[i] = known[i] - rgb_spread[i];
-    as_known.draw[i] = -draw_spread[i];
-    evened.change[i] = known[i] - whole.known[i];
-    evened.draw[i] = (b.known[i] - a.known[i]) / 2;
+    given[i / 3][i % 3] = share[i / 3] * rgb[i];
+    kept[i / 3][i % 3] = (1 - share[i / 3]) * rgb[i];
   }
-  mix(rgb, error_draw, std::array{as_known, evened}, by.light, at.width, at.height, rgb_spread, draw_spread);
+  give_parts(
+      at, kernels, favour, [&](std::size_t i) { return given[i] != Colour{}; },
+      [&](std::size_t i, std::size_t j, double part) {
+        for (std::size_t c = 0; c < 4; ++c) kept[j][c] += static_cast<float>(part) * given[i][c];
+      });
+  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = kept[i / 3][i % 3];
 }
 
 } // namespace
@@ -359,12 +333,12 @@ void Smoothing::look()
   level_.resize(seen.size());
   for_ranges(seen.size(), 1 << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      for (std::size_t number = 0; number < offsets().size(); ++number) {
-        const Offset& o = offsets()[number];
+      for (std::size_t number = 0; number < within_reach().offsets.size(); ++number) {
+        const Offset& o = within_reach().offsets[number];
         const int x = static_cast<int>(i) % width_ + o.x, y = static_cast<int>(i) / width_ + o.y;
         if (x < 0 || x >= width_ || y < 0 || y >= height_) continue;
         const std::size_t j = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
-        level_[i][number] = j == i || are_level(seen[i], seen[j]);
+        if (j == i || are_level(seen[i], seen[j])) level_[i][number / 64] |= std::uint64_t{1} << (number % 64);
       }
   });
 }
@@ -387,22 +361,36 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
   // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
   // Knopp (1967) evens that out, and still every pixel gives away what it has.
   std::vector<double> favour(level_.size(), 1), taken(level_.size());
-  const Weights by{light, wanted, favour};
   const Seeing at{width_, height_, level_};
+  std::vector<Kernel> kernels = find_kernels(at, light, wanted, favour);
   give_parts(
-      at, by, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
+      at, kernels, favour, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
   std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
+  kernels = find_kernels(at, light, wanted, favour);
 
-  std::vector<float> rgb_spread = rgb, draw_spread = error_draw;
   std::vector<float> share(level_.size(), 1);
-  spread_shares(at, by, share, rgb_spread, draw_spread);
-  if (spread_ == Spread::where_it_helps) {
-    share = shares(at, by, rgb, error_draw, rgb_spread);
-    rgb_spread = rgb, draw_spread = error_draw;
-    if (estimate.empty())
-      spread_shares(at, by, share, rgb_spread, draw_spread);
-    else
-      mix_with_known(at, by, share, rgb, error_draw, estimate, rgb_spread, draw_spread);
+  const auto spread_by = [&](const std::vector<Kernel>& by, std::vector<float> picture) {
+    spread_shares(at, by, favour, share, picture);
+    return picture;
+  };
+  std::vector<float> rgb_spread = spread_by(kernels, rgb), draw_spread;
+  if (spread_ == Spread::everywhere) {
+    draw_spread = spread_by(kernels, error_draw);
+  } else {
+    std::vector<float> a = rgb, b = rgb;
+    std::ranges::transform(rgb, error_draw, a.begin(), std::plus());
+    std::ranges::transform(rgb, error_draw, b.begin(), std::minus());
+    const std::vector<Kernel> of_a = find_kernels(at, light_of(a), wanted, favour), of_b = find_kernels(at, light_of(b), wanted, favour);
+    share = worthwhile_shares(rgb, error_draw, rgb_spread, spread_by(of_a, a), spread_by(of_b, b), light, width_, height_);
+    rgb_spread = spread_by(kernels, rgb);
+    if (estimate.empty()) {
+      draw_spread = spread_by(kernels, error_draw);
+    } else {
+      draw_spread.resize(error_draw.size());
+      std::ranges::transform(spread_by(of_a, a), spread_by(of_b, b), draw_spread.begin(),
+                             [](float of_one, float of_other) { return (of_one - of_other) / 2; });
+      mix(rgb, error_draw, estimate, light, width_, height_, rgb_spread, draw_spread);
+    }
   }
   add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);
   rgb = std::move(rgb_spread);

@@ -9,7 +9,7 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 
-#include <bitset>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -39,12 +39,12 @@ public:
   /// rgb: of caustics alone, [pixel][3] of the camera's size. error_draw: a draw of its error (Picture::error_draw), which tells how noisy
   /// a pixel is; it becomes one of the error of what is spread, the bias included. Values below 0, of colours outside of sRGB, count as
   /// no light when kernels are chosen. Nothing changes where the draw is empty.
-  /// estimate: the same light as somebody knows it without noise, but not quite right; may be empty. Then each place gets the mixture of
-  /// it, of what is spread and of what is not that the halves say is best (mixture.h).
+  /// estimate: the same light as somebody knows it without noise, but not quite right; may be empty. What is spread is mixed with it as the
+  /// halves say is best (mixture.h).
   void spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate = {});
 
-  /// Of the pixels within reach of one, nearest first, those that its light may be spread over.
-  using Level = std::bitset<128>;
+  /// Of the pixels within reach of one, nearest first, those that its light may be spread over: a bit each, from the lowest of the first.
+  using Level = std::array<std::uint64_t, 2>;
 
 private:
   /// What is looked at.
