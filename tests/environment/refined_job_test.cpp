@@ -2,34 +2,18 @@
 // Runs of engine 2 in which photons join the spheres: they go on to the truth and say how far they are, with the same bits however they got
 // there.
 #include "environment/photons.h"
-#include "image/image.h"
-#include "tests/environment/maps.h"
-#include "tests/environment/views.h"
+#include "tests/environment/lit_ball.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::refined_job_test {
 
-class EnvironmentRefined : public EnvironmentJobs {
+class EnvironmentRefined : public LitBallJobs {
 protected:
-  EnvironmentRefined()
-  {
-    const scene::Environment map = synthetic_maps(64)[1].map;
-    image::write_exr(cache.path() / "map.exr", {map.width, map.height, {"R", "G", "B"}, map.rgb, {}});
-  }
-
-  /// The ball above a floor under a map and a lamp.
   preset::Preset lit(const preset::Overrides& more = {}) const
   {
-    preset::Overrides overrides{"scene.camera.resolution=[64, 48]", "stop.passes=2",
-                                "environment.photons=4000",         "environment.spheres=4",
-                                "environment.resolution=16",        "environment.refine=true"};
+    preset::Overrides overrides{"scene.camera.resolution=[64, 48]", "environment.refine=true"};
     overrides.insert(overrides.end(), more.begin(), more.end());
-    preset::Preset p = ball_and(facing_quad("floor", {0, -1.5, 0}, {0, 1, 0}, 8), overrides);
-    p.scene.environment.emplace();
-    p.scene.environment->file = (cache.path() / "map.exr").string();
-    p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};
-    look(p, {2, 2, 4}, {0, -0.5, 0}, 50);
-    return p;
+    return LitBallJobs::lit(overrides);
   }
 
   /// Caustics by many photons alone, with random numbers of their own.
@@ -57,7 +41,6 @@ double rel_l2(const std::vector<float>& a, const std::vector<float>& truth)
 
 double sum(const std::vector<float>& rgb) { return std::accumulate(rgb.begin(), rgb.end(), 0.0); }
 
-// 4,000 photons a direction onto spheres of 16 x 16 texels are a poor bake.
 TEST_F(EnvironmentRefined, GoesOnToTheTruth)
 {
   preset::Preset p = lit({"stop.passes=8"});

@@ -2,33 +2,15 @@
 // Runs of engine 2 that show a scene: going on after a save, adopting another camera, another turn and other lights, with the bits of a run
 // of its own; what cannot be adopted; scenes without light, and with light of no one direction.
 #include "environment/sheet.h"
-#include "image/image.h"
-#include "tests/environment/maps.h"
-#include "tests/environment/views.h"
+#include "tests/environment/lit_ball.h"
 #include "tests/support/saved_jobs.h"
 
 namespace nephroid::view_job_test {
 
-class EnvironmentViewJob : public EnvironmentJobs {
+class EnvironmentViewJob : public LitBallJobs {
 protected:
-  EnvironmentViewJob()
-  {
-    const scene::Environment map = synthetic_maps(64)[1].map;
-    image::write_exr(cache.path() / "map.exr", {map.width, map.height, {"R", "G", "B"}, map.rgb, {}});
-  }
-
-  /// The ball on a floor under a map and a lamp, of more pixels than a step has.
-  preset::Preset lit() const
-  {
-    preset::Preset p = ball_and(facing_quad("floor", {0, -1.5, 0}, {0, 1, 0}, 8),
-                                {"scene.camera.resolution=[128, 96]", "stop.passes=2", "environment.photons=4000", "environment.spheres=4",
-                                 "environment.resolution=16"});
-    p.scene.environment.emplace();
-    p.scene.environment->file = (cache.path() / "map.exr").string();
-    p.scene.lights = {lamp({0.3, -1, 0.2}, 3)};
-    look(p, {2, 2, 4}, {0, -0.5, 0}, 50);
-    return p;
-  }
+  /// Of more pixels than a step has.
+  preset::Preset lit() const { return LitBallJobs::lit({"scene.camera.resolution=[128, 96]"}); }
 
   static void expect_same(const job::Snapshot& a, const job::Snapshot& b, const std::string& what)
   {
