@@ -24,6 +24,9 @@
 namespace nephroid::photons {
 namespace {
 
+/// Smoothing::Known::noise. Direct light has shadows that are broader than what is fine in a caustic.
+constexpr double caustic_noise = 0.05, direct_noise = 0.01;
+
 using Clock = std::chrono::steady_clock;
 
 PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene& scene)
@@ -184,7 +187,7 @@ public:
   void set_estimate(std::vector<float> caustics) override { estimate_ = std::move(caustics); }
   void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) override
   {
-    if (smoothing_) smoothing_->spread(rgb, error_draw, estimate);
+    if (smoothing_) smoothing_->spread(rgb, error_draw, {estimate, direct_noise});
   }
   void set_white(double white) override { world_.white = white; }
   std::int64_t rounds() const override { return static_cast<std::int64_t>(photon_rounds()); }
@@ -273,7 +276,7 @@ private:
     for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
       if (world_.pixels.may_show_glass[i / 3]) rgb[i] = estimate_[i], caustics.error_draw[i] = 0;
     const auto begin = Clock::now();
-    smoothing_->spread(rgb, caustics.error_draw, estimate_);
+    smoothing_->spread(rgb, caustics.error_draw, {estimate_, caustic_noise});
     smoothing_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
     tracing::layer_of(picture, "caustic").rgb = std::move(rgb);
     if (caustics.error_draw.empty()) picture.error_draw.clear();

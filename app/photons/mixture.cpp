@@ -16,19 +16,20 @@ constexpr double dark = 0.01; ///< below which light counts as if it were that: 
 
 } // namespace
 
-void mix(std::span<const float> picture, std::span<const float> picture_draw, std::span<const float> estimate,
-         std::span<const double> light, int width, int height, std::vector<float>& rgb, std::vector<float>& error_draw)
+void mix(std::span<const float> picture, std::span<const float> picture_draw, const Estimate& estimate, std::span<const double> light,
+         int width, int height, std::vector<float>& rgb, std::vector<float>& error_draw)
 {
+  const auto draw_of = [&](std::size_t c) { return estimate.error_draw.empty() ? 0.0 : estimate.error_draw[c]; };
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
   // term(c, r): of a channel of a pixel. The sum of the three over the light there.
   const auto over_light = [&](std::size_t i, const auto& term) {
     double sum = 0;
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c, static_cast<double>(estimate[c]) - rgb[c]);
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c, static_cast<double>(estimate.rgb[c]) - rgb[c]);
     return sum / (dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, light_reach));
   };
   const auto slope = [&](std::size_t i) {
     return over_light(i, [&](std::size_t c, double r) {
-      return r * (static_cast<double>(rgb[c]) - picture[c]) - static_cast<double>(error_draw[c]) * picture_draw[c];
+      return r * (static_cast<double>(rgb[c]) - picture[c]) + (draw_of(c) - error_draw[c]) * picture_draw[c];
     });
   };
   const SummedArea slopes(width, height, slope);
@@ -42,8 +43,8 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, st
       if (gain <= 0 || square <= 0) continue;
       const auto weight = static_cast<float>(std::min(gain / square, 1.0));
       for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-        rgb[c] += weight * (estimate[c] - rgb[c]);
-        error_draw[c] *= 1 - weight;
+        rgb[c] += weight * (estimate.rgb[c] - rgb[c]);
+        error_draw[c] += weight * (static_cast<float>(draw_of(c)) - error_draw[c]);
       }
     }
   });

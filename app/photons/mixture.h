@@ -8,7 +8,7 @@
 //
 // and E[r f] is to be had without the truth (Stein 1981, "Estimation of the mean of a multivariate normal distribution"; with an estimate
 // that knows nothing of the noise the best weight is that of James and Stein): f = (b - p) + e, and of the halves p + d and p - d, of which
-// b has a draw q of its noise, E[r e] = -E[q d]: the noise of one half is not in the other. Sums are taken around each pixel. Where few
+// r has a draw q of its noise, E[r e] = E[q d]: the noise of one half is not in the other. Sums are taken around each pixel. Where few
 // photons fell they are noisy themselves, so the estimate counts only for what it gains beyond one standard deviation of that.
 #pragma once
 #include <span>
@@ -16,9 +16,15 @@
 
 namespace nephroid::photons {
 
+/// Both [pixel][3].
+struct Estimate {
+  std::span<const float> rgb;
+  std::span<const float> error_draw; ///< of what it has of the picture's noise; empty: nothing
+};
+
 /// All linear sRGB, [pixel][3]. rgb, error_draw: b and a draw of its noise (job::Picture::error_draw); they become those of the mixture.
 /// picture, picture_draw: p and d. light: [pixel], what the squares of errors are measured by. Weights are 0..1.
-void mix(std::span<const float> picture, std::span<const float> picture_draw, std::span<const float> estimate,
-         std::span<const double> light, int width, int height, std::vector<float>& rgb, std::vector<float>& error_draw);
+void mix(std::span<const float> picture, std::span<const float> picture_draw, const Estimate& estimate, std::span<const double> light,
+         int width, int height, std::vector<float>& rgb, std::vector<float>& error_draw);
 
 } // namespace nephroid::photons

@@ -286,6 +286,24 @@ void give_parts(const Seeing& at, std::span<const Kernel> kernels, std::span<con
   });
 }
 
+struct EvenKernels {
+  std::vector<double> favour;  ///< [pixel]
+  std::vector<Kernel> kernels; ///< [pixel]
+};
+
+/// Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
+/// Knopp (1967) evens that out, and still every pixel gives away what it has.
+EvenKernels even_kernels(const Seeing& at, std::span<const double> light, std::span<const double> wanted)
+{
+  std::vector<double> favour(light.size(), 1), taken(light.size());
+  give_parts(
+      at, find_kernels(at, light, wanted, favour), favour, [](std::size_t) { return true; },
+      [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
+  std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
+  std::vector<Kernel> kernels = find_kernels(at, light, wanted, favour);
+  return {std::move(favour), std::move(kernels)};
+}
+
 /// Of what each pixel of a picture has, `share` is spread by the kernels; the rest stays.
 void spread_shares(const Seeing& at, std::span<const Kernel> kernels, std::span<const double> favour, std::span<const float> share,
                    std::vector<float>& rgb)
@@ -350,7 +368,7 @@ std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
          (sizeof(Sight) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
 }
 
-void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate)
+void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const Known& known)
 {
   if (error_draw.empty()) return;
   look();
@@ -358,15 +376,8 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
   std::vector<double> wanted = portions(light, error_draw, width_, height_);
   for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
 
-  // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
-  // Knopp (1967) evens that out, and still every pixel gives away what it has.
-  std::vector<double> favour(level_.size(), 1), taken(level_.size());
   const Seeing at{width_, height_, level_};
-  std::vector<Kernel> kernels = find_kernels(at, light, wanted, favour);
-  give_parts(
-      at, kernels, favour, [](std::size_t) { return true; }, [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
-  std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
-  kernels = find_kernels(at, light, wanted, favour);
+  const auto [favour, kernels] = even_kernels(at, light, wanted);
 
   std::vector<float> share(level_.size(), 1);
   const auto spread_by = [&](const std::vector<Kernel>& by, std::vector<float> picture) {
@@ -383,13 +394,24 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
     const std::vector<Kernel> of_a = find_kernels(at, light_of(a), wanted, favour), of_b = find_kernels(at, light_of(b), wanted, favour);
     share = worthwhile_shares(rgb, error_draw, rgb_spread, spread_by(of_a, a), spread_by(of_b, b), light, width_, height_);
     rgb_spread = spread_by(kernels, rgb);
-    if (estimate.empty()) {
+    if (known.rgb.empty()) {
       draw_spread = spread_by(kernels, error_draw);
     } else {
       draw_spread.resize(error_draw.size());
       std::ranges::transform(spread_by(of_a, a), spread_by(of_b, b), draw_spread.begin(),
                              [](float of_one, float of_other) { return (of_one - of_other) / 2; });
-      mix(rgb, error_draw, estimate, light, width_, height_, rgb_spread, draw_spread);
+      // What is known, with what it lacks. That is spread far, by kernels that hardly follow the noise: its draw is what they make of the
+      // picture's.
+      for (double& portion : wanted) portion *= noise * noise / (known.noise * known.noise);
+      const auto [wide_favour, wide] = even_kernels(at, light, wanted);
+      const std::vector<float> whole(level_.size(), 1);
+      std::vector<float> evened = rgb, evened_draw = error_draw;
+      std::ranges::transform(rgb, known.rgb, evened.begin(), std::minus());
+      spread_shares(at, wide, wide_favour, whole, evened);
+      spread_shares(at, wide, wide_favour, whole, evened_draw);
+      std::ranges::transform(evened, known.rgb, evened.begin(), std::plus());
+      mix(rgb, error_draw, {known.rgb, {}}, light, width_, height_, rgb_spread, draw_spread);
+      mix(rgb, error_draw, {evened, evened_draw}, light, width_, height_, rgb_spread, draw_spread);
     }
   }
   add_bias(rgb, error_draw, rgb_spread, draw_spread, width_, height_);

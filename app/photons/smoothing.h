@@ -25,6 +25,12 @@ public:
   /// noise^2 = 16. A smaller one blurs what need not be.
   static constexpr double noise = 0.25;
 
+  /// The same light as somebody knows it without noise, but not quite right.
+  struct Known {
+    std::span<const float> rgb; ///< [pixel][3]; empty: nobody does
+    double noise;               ///< what is allowed of noise in what is known with what it lacks, as Smoothing::noise
+  };
+
   /// Looks once through the middle of every pixel, on every core. Light is spread within one nearly flat part of the diffuse object that
   /// the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where glass or a mirror shows none, or
   /// is curved so that neighbours show places far apart, it is spread within one nearly flat part of the glass or mirror.
@@ -39,9 +45,9 @@ public:
   /// rgb: of caustics alone, [pixel][3] of the camera's size. error_draw: a draw of its error (Picture::error_draw), which tells how noisy
   /// a pixel is; it becomes one of the error of what is spread, the bias included. Values below 0, of colours outside of sRGB, count as
   /// no light when kernels are chosen. Nothing changes where the draw is empty.
-  /// estimate: the same light as somebody knows it without noise, but not quite right; may be empty. What is spread is mixed with it as the
-  /// halves say is best (mixture.h).
-  void spread(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate = {});
+  /// known: then each place gets the mixture that the halves say is best (mixture.h) of what is spread, of what is known, and of that with
+  /// what it lacks, which is spread until its noise is known.noise.
+  void spread(std::vector<float>& rgb, std::vector<float>& error_draw, const Known& known = {});
 
   /// Of the pixels within reach of one, nearest first, those that its light may be spread over: a bit each, from the lowest of the first.
   using Level = std::array<std::uint64_t, 2>;

@@ -37,7 +37,7 @@ Errors errors_with(double bias, unsigned seed)
     known[i] = truth[i] + static_cast<float>(bias * std::sin(20 * x));
   }
   std::vector<float> mixed = picture, mixed_draw = draw;
-  photons::mix(picture, draw, known, std::vector<double>(side * side, 1), side, side, mixed, mixed_draw);
+  photons::mix(picture, draw, {known, {}}, std::vector<double>(side * side, 1), side, side, mixed, mixed_draw);
   const std::vector<float> none(values);
   return {square(picture, truth), square(known, truth), square(mixed, truth), square(mixed_draw, none)};
 }
@@ -60,7 +60,7 @@ TEST(Mixture, LeavesWhatIsKnownExactly)
   const std::vector<float> picture(values, 0.5F), none(values);
   std::vector<float> mixed = picture, draw = none;
   const std::vector<float> wrong(values, 1.5F);
-  photons::mix(picture, none, wrong, std::vector<double>(side * side, 0.5), side, side, mixed, draw);
+  photons::mix(picture, none, {wrong, {}}, std::vector<double>(side * side, 0.5), side, side, mixed, draw);
   EXPECT_EQ(mixed, picture);
   EXPECT_EQ(draw, none);
 }
