@@ -286,24 +286,6 @@ void give_parts(const Seeing& at, std::span<const Kernel> kernels, std::span<con
   });
 }
 
-struct EvenKernels {
-  std::vector<double> favour;  ///< [pixel]
-  std::vector<Kernel> kernels; ///< [pixel]
-};
-
-/// Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
-/// Knopp (1967) evens that out, and still every pixel gives away what it has.
-EvenKernels even_kernels(const Seeing& at, std::span<const double> light, std::span<const double> wanted)
-{
-  std::vector<double> favour(light.size(), 1), taken(light.size());
-  give_parts(
-      at, find_kernels(at, light, wanted, favour), favour, [](std::size_t) { return true; },
-      [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
-  std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
-  std::vector<Kernel> kernels = find_kernels(at, light, wanted, favour);
-  return {std::move(favour), std::move(kernels)};
-}
-
 /// Of what each pixel of a picture has, `share` is spread by the kernels; the rest stays.
 void spread_shares(const Seeing& at, std::span<const Kernel> kernels, std::span<const double> favour, std::span<const float> share,
                    std::vector<float>& rgb)
@@ -320,6 +302,25 @@ void spread_shares(const Seeing& at, std::span<const Kernel> kernels, std::span<
         for (std::size_t c = 0; c < 4; ++c) kept[j][c] += static_cast<float>(part) * given[i][c];
       });
   for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = kept[i / 3][i % 3];
+}
+
+/// Makes of each of two pictures means by the kernels: what a pixel gets, over how much of the others gives to it.
+void to_means(const Seeing& at, std::span<const Kernel> kernels, std::span<const double> even, std::vector<float>& first,
+              std::vector<float>& second)
+{
+  using Two = std::array<float, 8>; // three of each picture, and how much gives
+  std::vector<Two> given(at.level.size()), got(at.level.size());
+  for (std::size_t i = 0; i < given.size(); ++i)
+    given[i] = {first[3 * i], first[3 * i + 1], first[3 * i + 2], second[3 * i], second[3 * i + 1], second[3 * i + 2], 1};
+  give_parts(
+      at, kernels, even, [](std::size_t) { return true; },
+      [&](std::size_t i, std::size_t j, double part) {
+        for (std::size_t c = 0; c < 8; ++c) got[j][c] += static_cast<float>(part) * given[i][c];
+      });
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    first[i] = got[i / 3][i % 3] / got[i / 3][6];
+    second[i] = got[i / 3][3 + i % 3] / got[i / 3][6];
+  }
 }
 
 } // namespace
@@ -377,7 +378,15 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
   for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
 
   const Seeing at{width_, height_, level_};
-  const auto [favour, kernels] = even_kernels(at, light, wanted);
+  // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
+  // Knopp (1967) evens that out, and still every pixel gives away what it has.
+  const std::vector<double> even(level_.size(), 1);
+  std::vector<double> favour = even, taken(level_.size());
+  give_parts(
+      at, find_kernels(at, light, wanted, even), even, [](std::size_t) { return true; },
+      [&](std::size_t, std::size_t j, double part) { taken[j] += part; });
+  std::transform(taken.begin(), taken.end(), favour.begin(), [](double sum) { return 1 / sum; });
+  const std::vector<Kernel> kernels = find_kernels(at, light, wanted, favour);
 
   std::vector<float> share(level_.size(), 1);
   const auto spread_by = [&](const std::vector<Kernel>& by, std::vector<float> picture) {
@@ -403,12 +412,9 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
       // What is known, with what it lacks. That is spread far, by kernels that hardly follow the noise: its draw is what they make of the
       // picture's.
       for (double& portion : wanted) portion *= noise * noise / (known.noise * known.noise);
-      const auto [wide_favour, wide] = even_kernels(at, light, wanted);
-      const std::vector<float> whole(level_.size(), 1);
       std::vector<float> evened = rgb, evened_draw = error_draw;
       std::ranges::transform(rgb, known.rgb, evened.begin(), std::minus());
-      spread_shares(at, wide, wide_favour, whole, evened);
-      spread_shares(at, wide, wide_favour, whole, evened_draw);
+      to_means(at, find_kernels(at, light, wanted, even), even, evened, evened_draw);
       std::ranges::transform(evened, known.rgb, evened.begin(), std::plus());
       mix(rgb, error_draw, {known.rgb, {}}, light, width_, height_, rgb_spread, draw_spread);
       mix(rgb, error_draw, {evened, evened_draw}, light, width_, height_, rgb_spread, draw_spread);

@@ -6,7 +6,8 @@
 
 Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1: how many, by which segmentation),
 spheres (3.2: how many, with which radii), histogram (figure 3.16), directions, refining; techniques (3.3 and figure 3.19: milliseconds, at 512 x 512, where
-kernels have been compiled before and the machine has nothing else to do), converging (error against time of all scenes, the same). Engine 1 traces photons from every texel of the same environment
+kernels have been compiled before and the machine has nothing else to do), converging (error against time of all scenes, the same), estimate (a run's own
+estimate against its error). Engine 1 traces photons from every texel of the same environment
 through the same objects: no spheres, no segments. Two of its runs with different seeds tell the noise floor. What is in OUT is not made again. Needs numpy
 and ImageMagick.
 """
@@ -175,30 +176,50 @@ SECONDS = (0.1, 0.25, 0.5, 1, 2, 4, 8, 20)
 
 
 def converging(bench, preset):
-    """Error against time: photons of engine 1, the same smoothed, spheres, ours. Bakes are there before."""
+    """Error against time: photons of engine 1 alone, the same smoothed, all that engine 1 renders, spheres, ours. Bakes are there before."""
     truth, other = (bench.reference(preset, seed) for seed in SEEDS)
     mask = bench.mask(preset, truth)
     bench.ours(preset, {})  # bakes
     alone = {"spectral.background": False, "seed": 201}
     ways = {"photons": {**TRUTH, **alone}, "photons, smoothed": {**TRUTH, **alone, "spectral.smoothing": "automatic"},
-            "spheres": {"environment.refine": False}, "ours": {}}
+            "engine 1, whole pictures": {"engine": "spectral", "scene.environment.lights": True, "seed": 201},
+            "spheres": {"environment.refine": False}, "ours, whole pictures": {}}
     head(f"converging: {preset}, {bench.size} x {bench.size}; another reference: " +
          ", ".join(f"{metric} {error:.3g}" for metric, error in zip(METRICS, bench.errors(other, truth, mask))), ["seconds", *METRICS])
     for seconds in SECONDS:
         for way, settings in ways.items():
-            run = bench.run(preset, f"{preset}-{bench.size}-{way.replace(', ', '-')}-{seconds}s", settings, "--seconds", seconds)
+            run = bench.run(preset, f"{preset}-{bench.size}-{way.replace(', ', '-').replace(' ', '-')}-{seconds}s", settings, "--seconds", seconds)
             row(way, [seconds, *bench.errors(run, truth, mask)])
 
 
+def estimate(bench, preset):
+    """A run's own estimate over its error, of whole pictures, against a long run: the mean of eight seeds, with the lowest and the highest."""
+    def last(run):
+        names, *_, values = ((run / "history.csv").read_text().splitlines())
+        return dict(zip(names.split(","), map(float, values.split(","))))
+
+    truth = bench.run(preset, f"{preset}-{bench.size}-long", {"stop.passes": 384, "seed": 301})
+    print(f"\nestimate: {preset}, {bench.size} x {bench.size}; the long run's own error: rel_l2 {last(truth)['estimated_rel_l2']:.2g}, lab_mean {last(truth)['estimated_lab_mean']:.2g}")
+    for passes in (2, 8, 32):
+        ratios = {metric: [] for metric in ("rel_l2", "lab_mean")}
+        for seed in range(401, 409):
+            run = bench.run(preset, f"{preset}-{bench.size}-{passes}-passes-{seed}", {"stop.passes": passes, "seed": seed})
+            errors = json.loads(bench.call("compare", run / "image.exr", truth / "image.exr", "--json"))
+            for metric, values in ratios.items():
+                values.append(last(run)[f"estimated_{metric}"] / errors[metric])
+        print(f"{passes} passes: " + ", ".join(f"{metric} {np.mean(v):.2f} ({min(v):.2f} to {max(v):.2f})" for metric, v in ratios.items()), flush=True)
+
+
 ALONE = {"histogram": histogram, "techniques": techniques}
+OF_SCENES = {"converging": converging, "estimate": estimate}
 
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("program")
     arguments.add_argument("out")
-    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", "techniques", "converging"], metavar="TABLE")
-    arguments.add_argument("--presets", nargs="+", default=SCENES, help="of `scenes` and `converging`")
+    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", "techniques", *OF_SCENES], metavar="TABLE")
+    arguments.add_argument("--presets", nargs="+", default=SCENES, help="of `scenes`, `converging` and `estimate`")
     arguments.add_argument("--sky", help="a latitude-longitude map: adds a torus of glass under it to the scenes")
     arguments.add_argument("--size", type=int, default=192)
     arguments.add_argument("--passes", type=int, default=8)
@@ -209,9 +230,9 @@ def main():
     for name in chosen.tables:
         if name == "scenes":
             scenes(bench, presets)
-        elif name == "converging":
+        elif name in OF_SCENES:
             for preset in presets:
-                converging(bench, preset)
+                OF_SCENES[name](bench, preset)
         elif name in ALONE:
             ALONE[name](bench, "bunny")
         else:
