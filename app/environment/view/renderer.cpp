@@ -125,7 +125,8 @@ void Renderer::begin_anew()
   see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
-  see(coarse_, block_of_coarse, 0, blocks);
+  if (!ends_are_coarse_) see(coarse_, block_of_coarse, 0, blocks);
+  ends_are_coarse_ = true;
   find_wanted(coarse_);
   while (caustics_ && !coarse_.cast(*caustics_)) {
   }
@@ -151,6 +152,7 @@ void Renderer::step()
 {
   switch (stage_) {
   case Stage::see:
+    ends_are_coarse_ = false;
     if (!see_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); })) return;
     find_wanted(fine_);
     stage_ = Stage::cast;
@@ -293,30 +295,48 @@ std::vector<Renderer::Layer> Renderer::layers() const
 void Renderer::set_camera(const scene::Camera& camera, const Place& where)
 {
   task_.tables.camera = tracing::device_camera(camera, where);
+  ends_are_coarse_ = false;
   begin_anew();
 }
 
 void Renderer::move_objects(MovedObjects moved)
 {
   task_.scene = std::move(moved.scene);
-  task_.bvh = std::move(moved.bvh);
   task_.placement = moved.placement;
   task_.surface_points = std::move(moved.surface_points);
   task_.tables.camera = moved.camera;
-  tracing::upload_surfaces(context_, *task_.scene, *task_.bvh, world_.buffers);
-  world_.scene.root = task_.bvh->root;
-  for (const auto& [name, value] : scene::tree_defines(*task_.bvh)) world_.defines[name] = value;
-  make_kernels();
+  scene::Bvh bvh = *task_.bvh;
+  scene::refit(bvh, task_.scene->geometry);
+  set_tree(std::move(bvh));
+  is_refitted_ = true;
   if (moved.surroundings) {
     task_.surroundings = std::move(*moved.surroundings);
     make_surroundings();
   }
+  ends_are_coarse_ = false;
   coarse_.forget();
   fine_.forget();
   if (around_) around_->forget();
   find_around();
   light_up();
   begin_anew();
+}
+
+void Renderer::set_tree(scene::Bvh bvh)
+{
+  task_.bvh = std::make_shared<const scene::Bvh>(std::move(bvh));
+  tracing::upload_surfaces(context_, *task_.scene, *task_.bvh, world_.buffers);
+}
+
+void Renderer::renew_tree()
+{
+  if (!is_refitted_) return;
+  set_tree(scene::build_bvh(task_.scene->geometry));
+
+  world_.scene.root = task_.bvh->root;
+  for (const auto& [name, value] : scene::tree_defines(*task_.bvh)) world_.defines[name] = value;
+  make_kernels();
+  is_refitted_ = false;
 }
 
 void Renderer::turn_environment(double rotate_deg)

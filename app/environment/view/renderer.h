@@ -34,6 +34,8 @@ public:
   /// Begins anew with the caustics of the task's caster, which outlive the renderer. Until then there are none.
   void set_caustics(Caustics& caustics);
 
+  /// Builds a tree where objects have moved in the last one: for many passes, not for a coarse picture.
+  void renew_tree();
   /// One step of about 50 ms of the pass in hand.
   void step();
   std::int64_t passes() const { return pass_; } ///< complete ones
@@ -70,6 +72,7 @@ private:
   enum class Stage { see, cast, compile_air, shade, volume };
 
   void make_kernels();
+  void set_tree(scene::Bvh bvh);
   void make_occlusion();
   void make_surroundings();
   void find_around();
@@ -89,6 +92,8 @@ private:
   double white_, rotate_deg_;
   compute::Context context_;
   tracing::World world_;
+  bool is_refitted_ = false;     ///< the tree
+  bool ends_are_coarse_ = false; ///< those of the coarse picture are still there
   std::optional<Surroundings> surroundings_;
   std::optional<Occlusion> occlusion_; ///< of the segmentation's lights
   compute::Kernel see_, shade_, coarse_shade_, volume_;
