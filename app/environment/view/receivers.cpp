@@ -17,13 +17,14 @@ std::size_t texels_of(int size) { return 6 * static_cast<std::size_t>(size) * st
 
 std::uint64_t Receivers::bytes(int size)
 {
-  return texels_of(size) * (sizeof(int) + 4 * sizeof(float) + sizeof(shared::float4) + sizeof(std::uint32_t));
+  return texels_of(size) * (sizeof(int) + 7 * sizeof(float) + sizeof(shared::float4) + sizeof(std::uint32_t));
 }
 
 Receivers::Receivers(const compute::Context& context, int size)
     : context_(context), size_(size), states_(context, "wanted receivers", texels_of(size)),
       distances_(context, "receivers' distances", texels_of(size)), caustics_(context, "caustics on receivers", 3 * texels_of(size)),
-      normals_(context, "receivers' normals", texels_of(size)), list_(context, "list of receivers", texels_of(size))
+      parts_seen_(context, "environment that receivers see", 3 * texels_of(size)), normals_(context, "receivers' normals", texels_of(size)),
+      list_(context, "list of receivers", texels_of(size))
 {
   list_on_host_.reserve(texels_of(size));
   caustics_.fill_zero();
@@ -76,13 +77,13 @@ void Receivers::find_all(std::optional<Surroundings>& surroundings, const glm::d
   find_wanted(surroundings, middle);
 }
 
-bool Receivers::cast(Caustics& light)
+bool Receivers::cast(const std::function<void(const CastTexels&)>& light)
 {
   if (lit_ == known_) return true;
   const auto count = static_cast<std::uint32_t>(
       std::clamp<std::int64_t>(std::llround(texels_a_step_.amount()), 1, static_cast<std::int64_t>(known_ - lit_)));
   const CastTexels texels{&list_, static_cast<std::uint32_t>(lit_), count, &distances_, &normals_, &caustics_, size_};
-  texels_a_step_.timed(count, [&] { light.cast(texels); });
+  texels_a_step_.timed(count, [&] { light(texels); });
   lit_ += count;
   return lit_ == known_;
 }
