@@ -42,6 +42,7 @@ public:
   void step() override
   {
     const auto begin = Clock::now();
+    if (renderer_) renderer_->renew_tree();
     const bool photons_next = wants_photons(), rests = !renderer_ || (!photons_next && renderer_->passes() >= most_passes());
     bakes_next_ = baker_ && (rests || !bakes_next_); // else by turns
     double& seconds = bakes_next_ ? bake_seconds_ : photons_next ? photon_seconds_ : render_seconds_;

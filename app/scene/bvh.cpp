@@ -25,6 +25,12 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct Box {
   glm::vec3 low{infinity}, high{-infinity};
+
+  void add(const Box& other)
+  {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
 };
 
 /// What Embree's callbacks make: a Leaf, or an Inner node with its children.
@@ -91,33 +97,66 @@ void check_triangle(const Mesh& mesh, std::size_t index)
   }
 }
 
-RTCBuildPrimitive grown_box(const glm::vec3& low, const glm::vec3& high, std::size_t primitive)
+/// Of a triangle or, counted on, of an ellipsoid, grown by more than the rounding errors of the traversal that come from its own
+/// coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/tracing/bvh.h). A small object beside large
+/// ones keeps tight boxes.
+Box primitive_box(const Mesh& mesh, std::size_t primitive)
 {
-  const glm::vec3 largest = glm::max(glm::abs(low), glm::abs(high));
+  Box box;
+  if (primitive < mesh.triangles.size()) {
+    const glm::uvec3& t = mesh.triangles[primitive];
+    const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
+    box = {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
+  } else {
+    const Ellipsoid& ellipsoid = mesh.ellipsoids[primitive - mesh.triangles.size()];
+    const glm::vec3 half(half_extent(ellipsoid));
+    box = {ellipsoid.centre - half, ellipsoid.centre + half};
+  }
+  const glm::vec3 largest = glm::max(glm::abs(box.low), glm::abs(box.high));
   const float slack = 0x1p-20f * std::max({largest.x, largest.y, largest.z});
-  return {low.x - slack,  low.y - slack,  low.z - slack,  0,
-          high.x + slack, high.y + slack, high.z + slack, static_cast<unsigned int>(primitive)};
+  return {box.low - slack, box.high + slack};
 }
 
-/// Boxes of the ellipsoids and of the triangles with an area, each grown by more than the rounding errors of the traversal that come from
-/// its own coordinates (those that come from the ray's origin are the ray's share: bvh_ray in kernels/tracing/bvh.h). A small object beside
-/// large ones keeps tight boxes.
+/// Boxes of the ellipsoids and of the triangles with an area.
 std::vector<RTCBuildPrimitive> primitive_boxes(const Mesh& mesh)
 {
   std::vector<RTCBuildPrimitive> boxes;
   boxes.reserve(mesh.triangles.size() + mesh.ellipsoids.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    check_triangle(mesh, i);
-    const glm::uvec3& t = mesh.triangles[i];
-    const glm::vec3 &a = mesh.positions[t.x], &b = mesh.positions[t.y], &c = mesh.positions[t.z];
-    if (!has_area(a, b, c)) continue;
-    boxes.push_back(grown_box(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), i));
-  }
-  for (std::size_t i = 0; i < mesh.ellipsoids.size(); ++i) {
-    const glm::vec3 half(half_extent(mesh.ellipsoids[i])), centre = mesh.ellipsoids[i].centre;
-    boxes.push_back(grown_box(centre - half, centre + half, mesh.triangles.size() + i));
+  for (std::size_t i = 0; i < mesh.triangles.size() + mesh.ellipsoids.size(); ++i) {
+    if (i < mesh.triangles.size()) {
+      check_triangle(mesh, i);
+      const glm::uvec3& t = mesh.triangles[i];
+      if (!has_area(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z])) continue;
+    }
+    const auto [low, high] = primitive_box(mesh, i);
+    boxes.push_back({low.x, low.y, low.z, 0, high.x, high.y, high.z, static_cast<unsigned int>(i)});
   }
   return boxes;
+}
+
+/// lane: of the block, its first float. missing: one point stands in its place, the triangle's first vertex.
+void set_triangle(float* lane, const Mesh& mesh, std::uint32_t triangle, bool missing)
+{
+  for (int corner = 0; corner < 3; ++corner) {
+    const glm::vec3& p = mesh.positions[mesh.triangles[triangle][missing ? 0 : corner]];
+    for (int axis = 0; axis < 3; ++axis) lane[static_cast<std::size_t>(3 * corner + axis) * triangles_per_block] = p[axis];
+  }
+  std::memcpy(lane + 9 * triangles_per_block, &triangle, sizeof triangle);
+}
+
+void set_ellipsoid(float* place, const Ellipsoid& ellipsoid)
+{
+  const auto rows = to_unit_sphere(ellipsoid);
+  const glm::vec3 data[] = {ellipsoid.centre, glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])};
+  std::memcpy(place, data, sizeof data);
+}
+
+void set_box(float* child, const Box& box)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    child[16 * axis] = box.low[static_cast<int>(axis)];
+    child[16 * axis + 8] = box.high[static_cast<int>(axis)];
+  }
 }
 
 /// Lays Embree's nodes out in the kernel's format, depth first.
@@ -155,12 +194,7 @@ private:
       float* block = bvh_.blocks.data() + (first + i / triangles_per_block) * floats_per_block + i % triangles_per_block;
       // A missing triangle is one point: three times the last triangle's first vertex.
       const bool missing = i >= triangles.size();
-      const std::uint32_t triangle = missing ? triangles.back() : triangles[i];
-      for (int corner = 0; corner < 3; ++corner) {
-        const glm::vec3& p = mesh_.positions[mesh_.triangles[triangle][missing ? 0 : corner]];
-        for (int axis = 0; axis < 3; ++axis) block[static_cast<std::size_t>(3 * corner + axis) * triangles_per_block] = p[axis];
-      }
-      std::memcpy(block + 9 * triangles_per_block, &triangle, sizeof triangle);
+      set_triangle(block, mesh_, missing ? triangles.back() : triangles[i], missing);
     }
   }
 
@@ -176,10 +210,7 @@ private:
       if (missing) continue;
       const std::size_t number = primitive - mesh_.triangles.size();
       bvh_.ellipsoid_places[number] = static_cast<std::uint32_t>(place);
-      const Ellipsoid& ellipsoid = mesh_.ellipsoids[number];
-      const auto rows = to_unit_sphere(ellipsoid);
-      const glm::vec3 data[] = {ellipsoid.centre, glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[2])};
-      std::memcpy(bvh_.blocks.data() + place, data, sizeof data);
+      set_ellipsoid(bvh_.blocks.data() + place, mesh_.ellipsoids[number]);
     }
   }
 
@@ -193,10 +224,7 @@ private:
       // While one child is visited, the others may wait; any_hit has one more on its stack.
       const int child = missing ? 0 : add(*node.children[i], depth + 1, stack + static_cast<int>(node.count) - 1);
       float* to = bvh_.nodes.data() + index * floats_per_node + i;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        to[16 * axis] = box.low[static_cast<int>(axis)];
-        to[16 * axis + 8] = box.high[static_cast<int>(axis)];
-      }
+      set_box(to, box);
       std::memcpy(to + 48, &child, sizeof child);
     }
     return static_cast<int>(index);
@@ -205,6 +233,35 @@ private:
   const Mesh& mesh_;
   Bvh& bvh_;
 };
+
+/// Writes a leaf's primitives where the mesh has them now. Returns their box.
+Box refit_leaf(Bvh& bvh, int leaf, const Mesh& mesh)
+{
+  const auto entry = static_cast<std::uint32_t>(~leaf);
+  float* block = bvh.blocks.data() + (entry >> 4) * floats_per_block;
+  Box box;
+  const auto number_at = [&](const float* place) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, place, sizeof number);
+    return number;
+  };
+  std::uint32_t before = no_primitive;
+  for (std::uint32_t b = 0; b < (entry & 3); ++b, block += floats_per_block)
+    for (std::size_t i = 0; i < triangles_per_block; ++i) {
+      const std::uint32_t triangle = number_at(block + 9 * triangles_per_block + i);
+      set_triangle(block + i, mesh, triangle, triangle == before);
+      box.add(primitive_box(mesh, triangle));
+      before = triangle;
+    }
+  for (std::uint32_t b = 0; b < (entry >> 2 & 3); ++b, block += floats_per_block)
+    for (std::size_t i = 0; i < ellipsoids_per_block; ++i) {
+      const std::uint32_t ellipsoid = number_at(block + i * floats_per_ellipsoid + 12);
+      if (ellipsoid == no_primitive) continue;
+      set_ellipsoid(block + i * floats_per_ellipsoid, mesh.ellipsoids[ellipsoid - mesh.triangles.size()]);
+      box.add(primitive_box(mesh, ellipsoid));
+    }
+  return box;
+}
 
 struct DeviceRelease {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -265,6 +322,22 @@ Bvh build_bvh(const Mesh& mesh)
   bvh.root = Layout(mesh, bvh).add(*root, 0, 1);
   if (bvh.nodes.empty()) bvh.nodes.resize(floats_per_node); // the root is a leaf
   return bvh;
+}
+
+void refit(Bvh& bvh, const Mesh& mesh)
+{
+  if (bvh.root < 0) refit_leaf(bvh, bvh.root, mesh);
+  std::vector<Box> boxes(bvh.nodes.size() / floats_per_node);
+  for (std::size_t node = boxes.size(); node-- > 0;) // children come after their parents
+    for (std::size_t i = 0; i < children_per_node; ++i) {
+      float* to = bvh.nodes.data() + node * floats_per_node + i;
+      int child = 0;
+      std::memcpy(&child, to + 48, sizeof child);
+      if (child == 0) continue; // there is none: the root is nobody's child
+      const Box box = child < 0 ? refit_leaf(bvh, child, mesh) : boxes[static_cast<std::size_t>(child)];
+      set_box(to, box);
+      boxes[node].add(box);
+    }
 }
 
 } // namespace nephroid::scene

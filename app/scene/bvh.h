@@ -34,6 +34,10 @@ std::map<std::string, std::string> tree_defines(const Bvh& bvh);
 /// Throws failed where Embree has no memory, bad_input for a triangle with a missing or non-finite vertex.
 Bvh build_bvh(const Mesh& mesh);
 
+/// Fits a tree to where its mesh's vertices and ellipsoids are now: a tenth of the time of building one. Rays meet the same as with a new
+/// tree, later the more the shapes have changed.
+void refit(Bvh& bvh, const Mesh& mesh);
+
 struct RayHit {
   double t = 0;                ///< distance in lengths of the direction
   std::uint32_t primitive = 0; ///< index into Mesh::triangles; counted on from their number, into Mesh::ellipsoids

@@ -223,6 +223,35 @@ TEST_F(Trace, NeedlesOfAnyLengthFitTheStack)
   EXPECT_GT(std::count_if(hits.begin(), hits.end(), [](const Hit& h) { return h.primitive != no_primitive; }), 900);
 }
 
+TEST_F(Trace, ATreeThatIsFittedToWhereThingsMovedMeetsTheSameAsANewOne)
+{
+  scene::Mesh mesh = test::sphere_mesh(61, 32);
+  const std::size_t first = mesh.positions.size();
+  for (const glm::vec3& p : test::box_mesh().positions) mesh.positions.push_back(0.3f * p);
+  for (const glm::uvec3& t : test::box_mesh().triangles) mesh.triangles.emplace_back(t + static_cast<std::uint32_t>(first));
+  for (int i = 0; i < 40; ++i) // a leaf has both
+    mesh.ellipsoids.push_back({.centre = 0.02f * glm::vec3(i, i % 7, -i), .half_axes = {{{0.05f, 0, 0}, {0, 0.03f, 0}, {0, 0, 0.02f}}}});
+  scene::Bvh bvh = scene::build_bvh(mesh);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const glm::vec3 p = mesh.positions[v];
+    mesh.positions[v] = v < first ? glm::vec3(0.8f * p.x - 0.6f * p.z, p.y, 0.6f * p.x + 0.8f * p.z) : p + glm::vec3(0.4f, 0.9f, -0.2f);
+  }
+  for (scene::Ellipsoid& ellipsoid : mesh.ellipsoids) ellipsoid.centre.y += 0.7f;
+  scene::refit(bvh, mesh);
+  const std::vector<Ray> rays = rays_at(1, glm::vec3(0), 20000);
+  const std::vector<Hit> fitted = test::KernelTracer(context_, bvh).closest(rays), anew = trace(mesh, rays);
+  std::array<std::size_t, 3> hits{}; // of the sphere, the box, the ellipsoids
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_EQ(fitted[i].primitive, anew[i].primitive) << i;
+    ASSERT_EQ(fitted[i].t, anew[i].t) << i;
+    if (anew[i].primitive == no_primitive) continue;
+    ++hits[anew[i].primitive < mesh.triangles.size() - 12 ? 0 : anew[i].primitive < mesh.triangles.size() ? 1 : 2];
+  }
+  EXPECT_GT(*std::ranges::min_element(hits), 20u);
+  scene::Bvh nothing = scene::build_bvh({});
+  scene::refit(nothing, {});
+}
+
 TEST_F(Trace, RefusesCornersThatAreMissingOrNotFinite)
 {
   scene::Mesh mesh = triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});

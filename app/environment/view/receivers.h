@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the caustic object, as a cube seen from its middle, with the caustics on it. Only those texels are worked out that a
+// What stands around the caustic object, as a cube seen from its middle, with the light on it. Only those texels are worked out that a
 // path from the eye has ended near (kernels/environment/see.cl), each once until something changes.
 #pragma once
 #include "environment/light/caustics.h"
 #include "tracing/world.h"
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,17 +31,19 @@ public:
   const compute::Buffer<int>& states() const { return states_; }
   const compute::Buffer<float>& distances() const { return distances_; }
   const compute::Buffer<float>& caustics() const { return caustics_; }
+  /// Of the environment's light, past all objects: [texel][3].
+  const compute::Buffer<float>& parts_seen() const { return parts_seen_; }
 
   /// Lists the texels that paths have asked for since the last call, and works out their distances. surroundings: empty where there is
   /// nothing.
   void find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
   /// Works out the distances of all texels.
   void find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
-  /// One step of about 50 ms of caustics on texels that lack them. True when all have theirs.
-  bool cast(Caustics& light);
+  /// One step of about 50 ms of light on texels that lack it: of those that `light` gets. True when all have theirs.
+  bool cast(const std::function<void(const CastTexels&)>& light);
 
-  /// Caustics are out of date: the light or the object's direction has changed.
-  void forget_caustics() { lit_ = 0; }
+  /// Light is out of date: it or the object's direction has changed.
+  void forget_light() { lit_ = 0; }
   /// So is everything: the object or what stands around it has moved.
   void forget();
 
@@ -48,7 +51,7 @@ private:
   compute::Context context_;
   int size_;
   compute::Buffer<int> states_;
-  compute::Buffer<float> distances_, caustics_;
+  compute::Buffer<float> distances_, caustics_, parts_seen_;
   compute::Buffer<shared::float4> normals_;
   compute::Buffer<std::uint32_t> list_;
   std::vector<int> states_read_;

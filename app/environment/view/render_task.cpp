@@ -89,7 +89,6 @@ std::optional<MovedObjects> move_objects(const RenderTask& loaded, const preset:
   moved.camera = tracing::device_camera(scene->camera, Place(now.source) / "scene" / "camera");
   moved.placement = placement(now, caster, *scene);
   moved.surface_points = surface_points(*scene, caster.objects, surface_point_count);
-  moved.bvh = std::make_shared<const scene::Bvh>(scene::build_bvh(scene->geometry));
   for (std::size_t i = 0; i < now.scene.objects.size() && !moved.surroundings; ++i)
     if (!std::ranges::count(caster.objects, i) && now.scene.objects[i].transform != shown.scene.objects[i].transform)
       moved.surroundings = without_caster(*scene, caster.objects);

@@ -40,7 +40,6 @@ struct RenderTask {
 /// What of a task changes when objects move.
 struct MovedObjects {
   std::shared_ptr<const scene::Scene> scene;
-  std::shared_ptr<const scene::Bvh> bvh;
   Placement placement;
   std::vector<glm::dvec3> surface_points;
   shared::DeviceCamera camera{};

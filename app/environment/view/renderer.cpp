@@ -80,6 +80,7 @@ void Renderer::make_occlusion()
 void Renderer::make_kernels()
 {
   see_ = compute::Program(context_, "environment/see.cl", world_.defines).kernel("see");
+  shadows_ = compute::Program(context_, "environment/shadows.cl", world_.defines).kernel("shadows");
   shade_ = compute::Program(context_, "environment/shade.cl", world_.defines).kernel("shade");
   compute::Defines coarse = world_.defines;
   coarse["NEPHROID_COARSE"] = std::to_string(1);
@@ -104,6 +105,10 @@ void Renderer::light_up()
   world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
   visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(surroundings_->world, rotate_deg_, task_.surface_points)
                                          : whole_lights(task_.segmentation);
+  std::vector<shared::float4> sky_lights;
+  for (const DistantLight& light : environment_lights(whole_lights(task_.segmentation), rotate_deg_))
+    sky_lights.insert(sky_lights.end(), {tracing::to_float4(-light.direction), tracing::to_float4(light.irradiance)});
+  sky_lights_ = compute::Buffer(context_, "lights of the environment", sky_lights);
   std::vector<DistantLight> lights = environment_lights(visible_, rotate_deg_);
   const std::vector<DistantLight> lamps =
       surroundings_ ? seen_lights(task_.lamps, surroundings_->world, task_.surface_points) : task_.lamps;
@@ -113,8 +118,8 @@ void Renderer::light_up()
   for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_)) polynomial.push_back(tracing::to_float4(factor));
   irradiance_.write(polynomial);
   air_side_ = 0;
-  coarse_.forget_caustics();
-  fine_.forget_caustics();
+  coarse_.forget_light();
+  fine_.forget_light();
 }
 
 void Renderer::begin_anew()
@@ -125,9 +130,10 @@ void Renderer::begin_anew()
   see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
-  see(coarse_, block_of_coarse, 0, blocks);
-  find_wanted(coarse_);
-  while (caustics_ && !coarse_.cast(*caustics_)) {
+  if (!ends_are_coarse_) see(coarse_, block_of_coarse, 0, blocks);
+  ends_are_coarse_ = true;
+  coarse_.find_wanted(surroundings_, task_.placement.middle);
+  while (!cast(coarse_)) {
   }
   shade(coarse_, block_of_coarse, 0, blocks);
   if (!scatters()) return;
@@ -141,22 +147,36 @@ void Renderer::compile_air(int side)
   air_side_ = side;
 }
 
-void Renderer::find_wanted(Receivers& receivers)
+bool Renderer::cast(Receivers& receivers)
 {
-  if (!task_.settings.cast || !caustics_) return; // caustics are 0 where nothing has been looked up
-  receivers.find_wanted(surroundings_, task_.placement.middle);
+  return receivers.cast([&](const CastTexels& texels) {
+    if (task_.settings.cast && caustics_) caustics_->cast(texels); // else they stay 0
+    world_.run(shadows_, texels.count, 32,
+               {{"list", *texels.list},
+                {"first", texels.first},
+                {"count", texels.count},
+                {"size", texels.size},
+                {"middle", tracing::to_float4(task_.placement.middle)},
+                {"distances", *texels.distances},
+                {"facing", *texels.normals},
+                {"sky_lights", sky_lights_},
+                {"light_count", static_cast<int>(sky_lights_.size() / 2)},
+                {"parts_seen", receivers.parts_seen()}});
+    context_.finish();
+  });
 }
 
 void Renderer::step()
 {
   switch (stage_) {
   case Stage::see:
+    ends_are_coarse_ = false;
     if (!see_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); })) return;
-    find_wanted(fine_);
+    fine_.find_wanted(surroundings_, task_.placement.middle);
     stage_ = Stage::cast;
     return;
   case Stage::cast:
-    if (!caustics_ || fine_.cast(*caustics_)) stage_ = Stage::shade;
+    if (cast(fine_)) stage_ = Stage::shade;
     return;
   case Stage::shade:
     if (!shade_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); })) return;
@@ -221,6 +241,7 @@ void Renderer::shade(const Receivers& receivers, int block, std::uint32_t first,
               {"size", receivers.size()},
               {"distances", receivers.distances()},
               {"caustics", receivers.caustics()},
+              {"parts_seen", receivers.parts_seen()},
               {"sums", sums_[half()]},
               {"width", task_.tables.camera.width},
               {"height", task_.tables.camera.height},
@@ -293,30 +314,48 @@ std::vector<Renderer::Layer> Renderer::layers() const
 void Renderer::set_camera(const scene::Camera& camera, const Place& where)
 {
   task_.tables.camera = tracing::device_camera(camera, where);
+  ends_are_coarse_ = false;
   begin_anew();
 }
 
 void Renderer::move_objects(MovedObjects moved)
 {
   task_.scene = std::move(moved.scene);
-  task_.bvh = std::move(moved.bvh);
   task_.placement = moved.placement;
   task_.surface_points = std::move(moved.surface_points);
   task_.tables.camera = moved.camera;
-  tracing::upload_surfaces(context_, *task_.scene, *task_.bvh, world_.buffers);
-  world_.scene.root = task_.bvh->root;
-  for (const auto& [name, value] : scene::tree_defines(*task_.bvh)) world_.defines[name] = value;
-  make_kernels();
+  scene::Bvh bvh = *task_.bvh;
+  scene::refit(bvh, task_.scene->geometry);
+  set_tree(std::move(bvh));
+  is_refitted_ = true;
   if (moved.surroundings) {
     task_.surroundings = std::move(*moved.surroundings);
     make_surroundings();
   }
+  ends_are_coarse_ = false;
   coarse_.forget();
   fine_.forget();
   if (around_) around_->forget();
   find_around();
   light_up();
   begin_anew();
+}
+
+void Renderer::set_tree(scene::Bvh bvh)
+{
+  task_.bvh = std::make_shared<const scene::Bvh>(std::move(bvh));
+  tracing::upload_surfaces(context_, *task_.scene, *task_.bvh, world_.buffers);
+}
+
+void Renderer::renew_tree()
+{
+  if (!is_refitted_) return;
+  set_tree(scene::build_bvh(task_.scene->geometry));
+
+  world_.scene.root = task_.bvh->root;
+  for (const auto& [name, value] : scene::tree_defines(*task_.bvh)) world_.defines[name] = value;
+  make_kernels();
+  is_refitted_ = false;
 }
 
 void Renderer::turn_environment(double rotate_deg)

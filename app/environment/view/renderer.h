@@ -34,6 +34,8 @@ public:
   /// Begins anew with the caustics of the task's caster, which outlive the renderer. Until then there are none.
   void set_caustics(Caustics& caustics);
 
+  /// Builds a tree where objects have moved in the last one: for many passes, not for a coarse picture.
+  void renew_tree();
   /// One step of about 50 ms of the pass in hand.
   void step();
   std::int64_t passes() const { return pass_; } ///< complete ones
@@ -44,7 +46,7 @@ public:
     std::vector<float> rgb;
     std::vector<float> draw; ///< of its error, as job::Picture::error_draw; empty until there are two passes
   };
-  /// Places in layers(). smooth: the layer direct without noise and without shadows. volume: in a medium only.
+  /// Places in layers(). smooth: the layer direct without noise, with the shadows of the segmentation's lights. volume: in a medium only.
   enum : std::size_t { background, direct, caustic, smooth, volume };
   std::vector<Layer> layers() const;
 
@@ -70,6 +72,7 @@ private:
   enum class Stage { see, cast, compile_air, shade, volume };
 
   void make_kernels();
+  void set_tree(scene::Bvh bvh);
   void make_occlusion();
   void make_surroundings();
   void find_around();
@@ -80,7 +83,7 @@ private:
   void shade(const Receivers& receivers, int block, std::uint32_t first, std::uint32_t count);
   void scatter(int block, std::uint32_t first, std::uint32_t count);
   void compile_air(int side);
-  void find_wanted(Receivers& receivers);
+  bool cast(Receivers& receivers); ///< as Receivers
   bool scatters() const { return task_.has_medium && caustics_; }
   std::size_t half() const { return static_cast<std::size_t>(pass_ % 2); } ///< of the pass in hand
   std::int64_t pixels() const { return std::int64_t{task_.tables.camera.width} * task_.tables.camera.height; }
@@ -89,13 +92,16 @@ private:
   double white_, rotate_deg_;
   compute::Context context_;
   tracing::World world_;
+  bool is_refitted_ = false;     ///< the tree
+  bool ends_are_coarse_ = false; ///< those of the coarse picture are still there
   std::optional<Surroundings> surroundings_;
   std::optional<Occlusion> occlusion_; ///< of the segmentation's lights
-  compute::Kernel see_, shade_, coarse_shade_, volume_;
+  compute::Kernel see_, shadows_, shade_, coarse_shade_, volume_;
   compute::Buffer<float> channel_cdf_;
   compute::Buffer<shared::float4> lit_rgb_, reflected_rgb_;
   IrradianceMoments moments_; ///< of the task's cube
   compute::Buffer<shared::float4> irradiance_;
+  compute::Buffer<shared::float4> sky_lights_; ///< the segmentation's, as shadows.cl has them
   compute::Buffer<float> texels_;
   shared::DeviceBackground texels_size_{};
   compute::Buffer<shared::DeviceEnd> ends_;
