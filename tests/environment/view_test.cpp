@@ -111,6 +111,19 @@ TEST_F(EnvironmentView, ThroughTheBallTheBackgroundIsAsBright)
   }
 }
 
+// An even sky lights a floor by 1 - 1 / d^2 of what it does without the ball, d radii below its middle.
+TEST_F(EnvironmentView, TheFirstPictureHasTheShadowOfTheBall)
+{
+  for (const double depth : {1.5, 2.0, 3.0}) {
+    preset::Preset p = ball_and(facing_quad("floor", {0, -depth, 0}, {0, 1, 0}, 40), {"environment.refine=true", "environment.lights=256"});
+    even_light(p);
+    look(p, {4, -0.5 * depth, 0}, {0, -depth, 0}, 1);
+    const double direct = mean(layer_rgb(job_of(p)->snapshot(), "direct")).y;
+    fmt::print("{} radii below the middle: {:.3f}, by its solid angle {:.3f}\n", depth, direct, 1 - 1 / (depth * depth));
+    EXPECT_NEAR(direct, 1 - 1 / (depth * depth), 0.03);
+  }
+}
+
 // A small screen between the ball and a floor, beside the axis.
 TEST_F(EnvironmentView, WhatIsHiddenFromTheObjectHasNoCaustic)
 {

@@ -42,9 +42,7 @@ public:
   /// One step of about 50 ms of light on texels that lack it: of those that `light` gets. True when all have theirs.
   bool cast(const std::function<void(const CastTexels&)>& light);
 
-  /// Light is out of date: it or the object's direction has changed.
-  void forget_light() { lit_ = 0; }
-  /// So is everything: the object or what stands around it has moved.
+  /// All is out of date: light has changed, or the object or what stands around it has moved.
   void forget();
 
 private:

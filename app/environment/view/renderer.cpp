@@ -118,8 +118,8 @@ void Renderer::light_up()
   for (const glm::dvec3& factor : irradiance_polynomial(moments_, rotate_deg_)) polynomial.push_back(tracing::to_float4(factor));
   irradiance_.write(polynomial);
   air_side_ = 0;
-  coarse_.forget_light();
-  fine_.forget_light();
+  coarse_.forget(); // with what other cameras have seen
+  fine_.forget();
 }
 
 void Renderer::begin_anew()
@@ -130,8 +130,7 @@ void Renderer::begin_anew()
   see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
-  if (!ends_are_coarse_) see(coarse_, block_of_coarse, 0, blocks);
-  ends_are_coarse_ = true;
+  see(coarse_, block_of_coarse, 0, blocks);
   coarse_.find_wanted(surroundings_, task_.placement.middle);
   while (!cast(coarse_)) {
   }
@@ -170,7 +169,6 @@ void Renderer::step()
 {
   switch (stage_) {
   case Stage::see:
-    ends_are_coarse_ = false;
     if (!see_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); })) return;
     fine_.find_wanted(surroundings_, task_.placement.middle);
     stage_ = Stage::cast;
@@ -314,7 +312,6 @@ std::vector<Renderer::Layer> Renderer::layers() const
 void Renderer::set_camera(const scene::Camera& camera, const Place& where)
 {
   task_.tables.camera = tracing::device_camera(camera, where);
-  ends_are_coarse_ = false;
   begin_anew();
 }
 
@@ -332,9 +329,6 @@ void Renderer::move_objects(MovedObjects moved)
     task_.surroundings = std::move(*moved.surroundings);
     make_surroundings();
   }
-  ends_are_coarse_ = false;
-  coarse_.forget();
-  fine_.forget();
   if (around_) around_->forget();
   find_around();
   light_up();

@@ -92,8 +92,7 @@ private:
   double white_, rotate_deg_;
   compute::Context context_;
   tracing::World world_;
-  bool is_refitted_ = false;     ///< the tree
-  bool ends_are_coarse_ = false; ///< those of the coarse picture are still there
+  bool is_refitted_ = false; ///< the tree
   std::optional<Surroundings> surroundings_;
   std::optional<Occlusion> occlusion_; ///< of the segmentation's lights
   compute::Kernel see_, shadows_, shade_, coarse_shade_, volume_;
