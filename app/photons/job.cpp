@@ -258,9 +258,12 @@ private:
   /// With both halves whole: what a few photons of one tell of the noise makes blotches.
   bool smooths() const
   {
-    const auto has_halves = [&](const TimedStage& s) { return s.caustics && s.stage->has_halves(at_.pass); };
-    return smoothing_ && std::ranges::any_of(stages_, has_halves);
+    for (std::size_t s = 0; smoothing_ && s < stages_.size(); ++s)
+      if (stages_[s].caustics && has_halves(s)) return true;
+    return false;
   }
+
+  bool has_halves(std::size_t stage) const { return stages_[stage].stage->has_halves(at_.pass, stage < at_.stage); }
 
   /// Adds the layer "caustic", spread, and its error.
   void add_smooth_caustics(job::Picture& picture)
@@ -268,7 +271,7 @@ private:
     job::Picture caustics = black();
     bool lacks_maps = false; // as they come after all rounds of a pass; until then glass shows what is known otherwise
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (stages_[s].caustics && stages_[s].stage->has_halves(at_.pass))
+      if (stages_[s].caustics && has_halves(s))
         stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);
       else
         lacks_maps = lacks_maps || stages_[s].caustics;

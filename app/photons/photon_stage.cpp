@@ -69,12 +69,11 @@ public:
     return true;
   }
 
-  bool has_halves(std::int64_t passes) const override { return passes * world_.tables.rounds + round_ >= 2; }
+  bool has_halves(std::int64_t passes, bool done) const override { return rounds(passes, done) >= 2; }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const std::int64_t rounds = world_.tables.rounds;
-    const auto samples = [&](std::size_t) { return tracing::halves_of(passes * rounds + (done ? rounds : round_), slices_.part()); };
+    const auto samples = [&](std::size_t) { return tracing::halves_of(rounds(passes, done), slices_.part()); };
     tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
@@ -94,6 +93,12 @@ public:
   }
 
 private:
+  /// That are complete.
+  std::int64_t rounds(std::int64_t passes, bool done) const
+  {
+    return passes * world_.tables.rounds + (done ? world_.tables.rounds : round_);
+  }
+
   void make_kernel()
   {
     compute::Defines defines = world_.photon_defines();

@@ -46,8 +46,8 @@ public:
   /// Adds its layers to the picture, and its error to Picture::error_draw (add_layer in film.h), as the means of `passes` complete passes
   /// and what is done of the one in hand, which has the number `passes`; done: whether it has had its turn in that pass already.
   virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;
-  /// Whether both halves of its film have something by then: only then there is a draw of its error.
-  virtual bool has_halves(std::int64_t passes) const { return passes >= 2; }
+  /// Whether both halves of its film are whole by then: only then there is a draw of its error.
+  virtual bool has_halves(std::int64_t passes, bool done) const { return passes + (done ? 1 : 0) >= 2; }
   /// Adds the radiance of its layer in a pixel, as develop; false where its film knows colours only.
   virtual bool add_spectrum(std::int64_t /*passes*/, bool /*done*/, job::PixelSpectrum& /*to*/) { return false; }
   /// Adds where the power of its photons went in the same passes, if it keeps counters of its own.

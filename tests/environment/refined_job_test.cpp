@@ -52,6 +52,23 @@ TEST_F(EnvironmentRefined, GoesOnToTheTruth)
   EXPECT_NEAR(sum(refined) / sum(is), 1, 0.01);
 }
 
+// Not even a little later, while photons wait for the maps of a pass.
+TEST_F(EnvironmentRefined, IsNeverWorseThanSpheres)
+{
+  const preset::Preset p = lit();
+  const std::vector<float> is = truth(p);
+  const auto job = job_of(p);
+  double spheres = 0;
+  while (!job->finished()) {
+    job->step();
+    const job::Snapshot now = job->snapshot();
+    if (!now.caption.empty()) continue;
+    const double off = rel_l2(layer_rgb(now, "caustic"), is);
+    if (spheres == 0) spheres = off;
+    EXPECT_LT(off, 1.05 * spheres) << now.progress.work << " photons";
+  }
+}
+
 TEST_F(EnvironmentRefined, SaysItsOwnError)
 {
   const preset::Preset p = lit();
