@@ -27,19 +27,19 @@ Errors errors_with(double bias, unsigned seed)
 {
   std::mt19937 generator(seed);
   std::normal_distribution<float> noise(0, 0.1F);
-  std::vector<float> truth(values), picture(values), draw(values), known(values);
+  std::vector<float> truth(values), picture(values), draw(values), biased(values);
   for (std::size_t i = 0; i < values; ++i) {
     const auto x = static_cast<double>(i / 3 % side) / side;
     truth[i] = static_cast<float>(0.5 + x);
     const float a = noise(generator), b = noise(generator); // of the halves: their mean has .1 / sqrt(2)
     picture[i] = truth[i] + (a + b) / 2;
     draw[i] = (a - b) / 2;
-    known[i] = truth[i] + static_cast<float>(bias * std::sin(20 * x));
+    biased[i] = truth[i] + static_cast<float>(bias * std::sin(20 * x));
   }
   std::vector<float> mixed = picture, mixed_draw = draw;
-  photons::mix(picture, draw, {known, {}}, std::vector<double>(side * side, 1), side, side, mixed, mixed_draw);
+  photons::mix(picture, draw, {biased, {}}, std::vector<double>(side * side, 1), side, side, mixed, mixed_draw);
   const std::vector<float> none(values);
-  return {square(picture, truth), square(known, truth), square(mixed, truth), square(mixed_draw, none)};
+  return {square(picture, truth), square(biased, truth), square(mixed, truth), square(mixed_draw, none)};
 }
 
 TEST(Mixture, IsAsGoodAsTheBetterOne)
