@@ -109,8 +109,10 @@ void check(const preset::Preset& preset, const Where& where)
 
 const preset::SettingsType& settings_type()
 {
+  static constexpr std::string_view without[] = {"scene.materials", "scene.objects", "scene.lights", "scene.environment",
+                                                 "white",           "reference",     "stop.error"};
   static const preset::SettingsType type =
-      preset::settings_type<Settings>("inverse", "One refractive object that casts several pictures at several distances.", check);
+      preset::settings_type<Settings>("inverse", "One refractive object that casts several pictures at several distances.", check, without);
   return type;
 }
 

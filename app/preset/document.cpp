@@ -2,6 +2,7 @@
 #include "preset/document.h"
 
 #include "base/error.h"
+#include "preset/change_engine.h"
 
 #include <fmt/format.h>
 
@@ -146,7 +147,20 @@ void Document::merge(const Json& over, const Origin& origin)
 {
   const auto shared = std::make_shared<const Origin>(origin);
   origins_.set_main(shared);
+  if (over.contains("engine")) change_engine(over["engine"], origin);
   merge(value_, over, "", shared);
+}
+
+void Document::change_engine(const Json& engine, const Origin& origin)
+{
+  if (!engine.is_string() || value_.value("engine", Json()) == engine) return;
+  const std::vector<std::string> taken = take_foreign(value_, engine.get<std::string>());
+  if (taken.empty()) return;
+  const Origins::Shared tracks = origins_.shared_at("/animation/tracks");
+  origins_.set_whole("/animation/tracks", tracks); // their numbers may have changed
+  Place place = origin.place;
+  if (origin.is_file) place = place / "engine";
+  notes_.push_back(place.text() + ": " + left_out_note(engine.get<std::string>(), taken));
 }
 
 void Document::merge(Json& into, const Json& over, const std::string& pointer, const Origins::Shared& origin)
@@ -178,6 +192,7 @@ void Document::replace(Json& slot, const Json& value, const std::string& pointer
 void Document::set(const std::vector<std::string>& path, Json value, const Origin& origin)
 {
   const auto shared = std::make_shared<const Origin>(origin);
+  if (path.size() == 1 && path.front() == "engine") change_engine(value, origin);
   Json* slot = &value_;
   std::string pointer;
   for (std::size_t i = 0; i < path.size(); ++i) {

@@ -20,7 +20,8 @@ public:
   /// For messages: "FILE#/pointer" or "--set a.b=c".
   Place where(const std::string& pointer) const { return origins_.where(pointer); }
 
-  /// A child's values over this one, which then is its parent.
+  /// A child's values over this one, which then is its parent. Where this and set() change the engine, what the new one does not know goes
+  /// first (change_engine.h).
   void merge(const Json& over, const Origin& origin);
   /// Puts a value at a path of keys and list indices, making the objects on the way. Throws bad_input at origin where the path
   /// leads through a plain value or beyond the end of a list.
@@ -28,12 +29,17 @@ public:
   /// Takes a key of the root out and returns its value, null where it is not there.
   Json take(const std::string& key);
 
+  /// What went with a change of the engine: "child.json#/engine: left out ...".
+  const std::vector<std::string>& notes() const { return notes_; }
+
 private:
+  void change_engine(const Json& engine, const Origin& origin);
   void replace(Json& slot, const Json& value, const std::string& pointer, const Origins::Shared& origin);
   void merge(Json& into, const Json& over, const std::string& pointer, const Origins::Shared& origin);
 
   Json value_;
   Origins origins_;
+  std::vector<std::string> notes_;
 };
 
 /// "a.b.0.c" as its keys; empty where one of them is.

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace nephroid::preset {
 
@@ -212,6 +213,7 @@ struct Provenance {
   std::shared_ptr<const Origins> origins; ///< who gave each value; null where nothing was read
   std::string run;                        ///< its name as one of a sweep's runs; empty where there is no sweep
   std::optional<int> frame;               ///< which one of an animation it is (read.h)
+  std::vector<std::string> notes;         ///< what a change of the engine left out, a line each (change_engine.h)
   bool operator==(const Provenance&) const { return true; }
 };
 

@@ -95,8 +95,10 @@ private:
       const std::string& key = item.key();
       if (holds(keys, key)) continue;
       if (members.front().role == Role::type) refuse_of_other_type(child(pointer, key), key, object, members.front());
-      if (std::ranges::any_of(members, [&](const Member& member) { return member.field.name == key; }))
+      if (std::ranges::any_of(members, [&](const Member& member) { return member.field.name == key; })) {
+        if (item.value().is_null()) continue; // not given, which is as it should be
         refuse_of_other_engine(pointer, key);
+      }
       throw bad_input(document_.where(child(pointer, key)), "unknown key " + in_quotes(key),
                       fmt::format("the keys here are {}", fmt::join(keys, ", ")), did_you_mean(key, keys));
     }
@@ -238,7 +240,8 @@ Preset finish(const SweptDocument& run)
 {
   const Document& document = run.document;
   const std::string name = base_name(document) + run.suffix;
-  const Provenance provenance{std::make_shared<const Origins>(document.origins()), run.suffix.empty() ? std::string() : name, std::nullopt};
+  const Provenance provenance{std::make_shared<const Origins>(document.origins()), run.suffix.empty() ? std::string() : name, std::nullopt,
+                              document.notes()};
   Preset unread;
   unread.provenance = provenance;
   return at_origins(unread, [&] {

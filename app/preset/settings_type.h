@@ -7,6 +7,7 @@
 #include "preset/value.h"
 
 #include <algorithm>
+#include <span>
 
 namespace nephroid::preset {
 
@@ -20,6 +21,8 @@ struct SettingsType {
   std::string_view sentence; ///< what the engine is for
   /// What one field cannot say alone, of a preset with these settings. Throws bad_input at where(pointer) of the first contradiction.
   void (*check)(const Preset& preset, const Where& where);
+  /// What presets of this engine have not, though those of others have it, as --set names it: it goes where a preset's engine changes.
+  std::span<const std::string_view> without;
 
   const ValueType& (*section)();   ///< of the struct
   const ValueType& (*recipe)();    ///< of a std::optional<Settings>, as far as it holds these
@@ -58,11 +61,13 @@ const ValueType& recipe_type()
 
 /// S: described (describe.h).
 template <class S>
-constexpr SettingsType settings_type(std::string_view name, std::string_view sentence, void (*check)(const Preset&, const Where&))
+constexpr SettingsType settings_type(std::string_view name, std::string_view sentence, void (*check)(const Preset&, const Where&),
+                                     std::span<const std::string_view> without = {})
 {
   return {.name = name,
           .sentence = sentence,
           .check = check,
+          .without = without,
           .section = type_of<S>,
           .recipe = recipe_type<S>,
           .of = settings_struct<S>,

@@ -133,6 +133,7 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous)
   std::unique_ptr<plan::Plan> plan = engine::engine_of(preset).plan(preset, loaded->scene, *loaded->bvh);
   plan->buffers.push_back(picture_and_files(*plan, loaded->scene.camera.width, loaded->scene.camera.height));
   plan->inputs = std::move(inputs);
+  plan->notes.insert(plan->notes.begin(), preset.provenance.notes.begin(), preset.provenance.notes.end());
   return {preset, std::move(loaded), std::move(plan)};
 }
 
