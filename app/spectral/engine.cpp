@@ -99,6 +99,10 @@ photons::RunPlan make_plan(const preset::Preset& preset, const scene::Scene& sce
 {
   photons::RunPlan plan = photons::make_plan(preset, settings(preset), scene, bvh, leave_out);
   plan.engine = "spectral";
+  const auto& environment = preset.scene.environment;
+  if (environment && !environment->lights && scene.lights.empty() && !preset.scene.objects.empty())
+    plan.notes.push_back("nothing lights the scene: it has no lamp, and its environment is only seen; to be lit by that: "
+                         "--set scene.environment.lights=true");
   return plan;
 }
 

@@ -132,7 +132,7 @@ TEST_F(GradientEngine, RefusesWhatIsNotItsOwn)
   };
   refuses({"spectral.method=thesis"},
           "'spectral' has no meaning for the engine 'gradient'; it belongs to 'spectral'; remove it or change the engine");
-  refuses({"engine=spectral"}, "'gradient' has no meaning for the engine 'spectral'; it belongs to 'gradient'");
+  refuses({"engine=spectral", "gradient.noise=0"}, "'gradient' has no meaning for the engine 'spectral'; it belongs to 'gradient'");
   refuses({"engine=graident"}, "did you mean 'gradient'?");
   refuses({"gradient.noise=2"}, "expected a number from 0 to 1");
   refuses({"gradient.noize=1"}, "did you mean 'noise'?");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layouts of panels by engine: kept, restored, reset; panels closed and shown; the command palette.
+#include "preset/change_engine.h"
 #include "window_fixture.h"
 
 #include <imgui_internal.h>
@@ -119,6 +120,25 @@ TEST_F(ParametersInFront, StaysInFrontForAnotherEngine)
   frames(6);
   EXPECT_TRUE(seen(ParametersPanel::title));
   EXPECT_FALSE(seen("Annealing"));
+}
+
+TEST_F(LayoutTest, APanelInFrontStaysThereWhenAnEditChangesTheEngine)
+{
+  open();
+  frames(5);
+  apply({command::ShowPanel{"parameters", true}});
+  frames(3);
+  ASSERT_TRUE(seen(ParametersPanel::title));
+  for (const char* engine : {"environment", "inverse", "spectral"}) {
+    auto json = preset::Json::parse(preset::to_json(*workbench.preset()));
+    preset::take_foreign(json, engine);
+    json["engine"] = engine;
+    apply({command::Edit{"engine", preset::parse_preset(json.dump(), workbench.preset()->source)}});
+    frames(8);
+    EXPECT_EQ(workbench.preset()->settings.engine(), engine);
+    EXPECT_TRUE(seen(ParametersPanel::title)) << engine;
+    EXPECT_TRUE(seen(ViewPanel::title)) << engine;
+  }
 }
 
 TEST_F(LayoutTest, NamesThatAreNoPanelsAndPanelsThatItDoesNotKnowDoNoHarm)

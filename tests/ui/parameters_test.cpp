@@ -158,6 +158,23 @@ TEST_F(ParametersTest, AWhiteThatIsFittedIsANumberAsSoonAsItIsKnown)
   EXPECT_THAT(last_message(workbench), HasSubstr("white 2.5 fits the first picture"));
 }
 
+TEST_F(ParametersTest, AnotherEngineIsChosenWhateverTheOldOneHad)
+{
+  open(R"({"engine": "spectral", "white": "auto", "scene": {"camera": {"resolution": [32, 24]}, "lights": [{"type": "point"}]},
+    "spectral": {"threshold_deg": 1}, "reference": {"type": "recipe", "spectral": {}}, "stop": {"error": 0.5}})");
+  const std::string before = text();
+  choose("/engine", "inverse");
+  EXPECT_TRUE(problems().empty());
+  EXPECT_EQ(at("/engine"), "inverse");
+  EXPECT_EQ(at("/scene/camera/resolution"), Json({32, 24}));
+  EXPECT_TRUE(at("/scene/lights").empty());
+  ASSERT_FALSE(workbench.messages().empty());
+  EXPECT_EQ(workbench.messages().back().line, "left out what the engine 'inverse' does not know: spectral, reference.spectral, "
+                                              "scene.lights, white, reference, stop.error (Undo brings it back)");
+  undo();
+  EXPECT_EQ(text(), before);
+}
+
 TEST_F(ParametersTest, WhatWaitsIsTakenBack)
 {
   open();

@@ -227,6 +227,35 @@ TEST_F(GltfImport, GlassBendsAsItsAbbeNumberSays)
   EXPECT_THAT(made.notes, Not(Contains(HasSubstr("thin film"))));
 }
 
+TEST_F(GltfImport, WhatMayBeMeantAsGlassHasANoteThatSaysHowToMakeItGlass)
+{
+  const auto advice = Contains(AllOf(HasSubstr("may be meant as glass"),
+                                     HasSubstr(R"(={"type": "dielectric", "dispersion": 1.5}')"))); // the default of KHR_materials_ior
+  imported(triangle());
+  EXPECT_THAT(made.notes, Not(advice));
+  Json named = triangle(), blended = triangle(), transmits = triangle(), nearly_opaque = triangle();
+  named["materials"][0]["name"] = "Wine Glass";
+  imported(named);
+  EXPECT_THAT(made.notes, advice);
+  blended["materials"][0]["alphaMode"] = "BLEND";
+  blended["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.2};
+  imported(blended);
+  EXPECT_THAT(made.notes, advice);
+  transmits["materials"][0]["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.4;
+  imported(transmits);
+  EXPECT_THAT(made.notes, advice);
+  nearly_opaque["materials"][0]["alphaMode"] = "BLEND";
+  nearly_opaque["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.9};
+  imported(nearly_opaque);
+  EXPECT_THAT(made.notes, AllOf(Not(advice), Contains(HasSubstr("is opaque here"))));
+
+  // The advice is a --set that the preset takes.
+  const std::string name = imported(named).scene.materials.begin()->first;
+  const preset::Preset glass =
+      preset::read_preset(made.preset.string(), {"scene.materials." + name + R"(={"type": "dielectric", "dispersion": 1.5})"});
+  EXPECT_EQ(glass.scene.materials.at(name).type, Material::Type::dielectric);
+}
+
 TEST_F(GltfImport, GlassAbsorbsAsItsVolumeSays)
 {
   Json json = triangle();

@@ -150,6 +150,51 @@ TEST_F(PresetFiles, InheritedFileNamesMeanTheSameFile)
   EXPECT_EQ(materials.at("mine").dispersion.file, "both.yml");
 }
 
+TEST_F(PresetFiles, AnotherEngineTakesAwayWhatItDoesNotKnow)
+{
+  const std::string parent = write("parent.json", R"({"engine": "spectral", "white": 3, "spectral": {"threshold_deg": 1},
+    "scene": {"camera": {"fov_deg": 30}, "lights": [{"type": "point"}]},
+    "reference": {"type": "recipe", "spectral": {}, "passes": 9}, "sweep": {"spectral.threshold_deg": [1, 2]},
+    "animation": {"frames": 4, "tracks": [{"path": "spectral.threshold_deg", "keys": [{"frame": 0, "value": 1}]},
+                                          {"path": "scene.camera.fov_deg", "keys": [{"frame": 0, "value": 20}]}]}})");
+  const auto expect_environment = [](const Preset& p, const std::string& note) {
+    EXPECT_EQ(p.settings.engine(), "environment");
+    EXPECT_EQ(p.white, 3);
+    ASSERT_EQ(p.scene.lights.size(), 1u);
+    ASSERT_TRUE(p.reference);
+    EXPECT_EQ(p.reference->passes, 9);
+    EXPECT_FALSE(p.reference->settings) << "the run's own";
+    ASSERT_EQ(p.animation->tracks.size(), 1u);
+    EXPECT_EQ(p.scene.camera.fov_deg, 20);
+    EXPECT_THAT(p.provenance.notes, testing::ElementsAre(note + ": left out what the engine 'environment' does not know: spectral, "
+                                                                "reference.spectral, sweep: spectral.threshold_deg, animation: "
+                                                                "spectral.threshold_deg"));
+  };
+  expect_environment(preset::read_preset(parent, {"engine=environment"}), "--set engine=environment");
+  const std::string child = write("child.json", R"({"parent": "parent", "engine": "environment", "environment": {"directions": 98}})");
+  expect_environment(preset::read_preset(child), child + "#/engine");
+  EXPECT_TRUE(preset::read_preset(child, {"engine=environment"}).provenance.notes.size() == 1) << "it has that engine already";
+
+  // What is said for the new engine is not forgiven, and null is nothing.
+  EXPECT_THROW(preset::read_preset(parent, {"engine=environment", "spectral.threshold_deg=1"}), Error);
+  EXPECT_NO_THROW(preset::read_preset(parent, {"engine=environment", "spectral=null"}));
+
+  // An engine may have no use for parts of a scene either.
+  const Preset inverse = preset::read_preset(parent, {"engine=inverse"});
+  EXPECT_TRUE(inverse.scene.lights.empty());
+  EXPECT_EQ(inverse.scene.camera.fov_deg, 20);
+  EXPECT_FALSE(inverse.reference);
+  EXPECT_THAT(inverse.provenance.notes, testing::ElementsAre(testing::HasSubstr("scene.lights, white, reference")));
+}
+
+TEST_F(PresetFiles, EveryShippedPresetTakesEveryEngine)
+{
+  for (const preset::ShippedPreset& shipped : preset::shipped_presets())
+    for (const preset::SettingsType* type : preset::settings_types())
+      for (const Preset& p : preset::read_presets(shipped.file.string(), {"engine=" + std::string(type->name)}))
+        EXPECT_EQ(p.settings.engine(), type->name) << shipped.name;
+}
+
 TEST_F(PresetFiles, AShippedPresetCanBeAParent)
 {
   const Preset parent = preset::read_preset("spectral/ball-lens.json");

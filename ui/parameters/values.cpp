@@ -2,6 +2,7 @@
 // The widgets of single values: a number is dragged or typed, a word is chosen, a text is typed, a file is chosen.
 #include "base/files.h"
 #include "optics/spectrum.h"
+#include "preset/change_engine.h"
 #include "preset/field.h"
 #include "ui/parameters/panel.h"
 
@@ -88,7 +89,9 @@ void ParametersPanel::draw_value(const Outline& o, const Json& value, const std:
   case Kind::word:
     draw_choice(pointer, text_of(value), o.words,
                 o.chooses ? std::function<void(std::string_view)>([&](std::string_view word) {
-                  ask(dotted(pointer), "", preset::as_type(draft_.value(), preset::outline, o, word));
+                  Json without = draft_.value();
+                  preset::take_foreign(without, word);
+                  ask(dotted(pointer), "", preset::as_type(without, preset::outline, o, word));
                 })
                           : set,
                 width);

@@ -94,6 +94,14 @@ void check_layout(const std::string& name)
   throw bad_input("--layout", "there is no layout \"" + name + "\"", "expected one of: " + names);
 }
 
+FrontTabs panels_in_sight()
+{
+  FrontTabs tabs;
+  for (const PanelEntry& entry : panel_table())
+    if (is_seen(entry)) tabs.push_back(tab_id(entry.title));
+  return tabs;
+}
+
 FrontTabs begin_layout(const std::string& name, const std::string& engine, unsigned dock_space, float width, float height)
 {
   check_layout(name);

@@ -28,6 +28,8 @@ void check_layout(const std::string& name);
 
 /// The tabs that are in front, each as ImGuiWindow::TabId.
 using FrontTabs = std::vector<unsigned>;
+/// Of all panels that are seen now.
+FrontTabs panels_in_sight();
 /// Docks the picture at the left of the dock space of this id (an ImGuiID) and the other panels as tabs at its right. engine: of the
 /// preset. Inside of a frame, before the panels.
 FrontTabs begin_layout(const std::string& name, const std::string& engine, unsigned dock_space, float width, float height);

@@ -144,6 +144,9 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
   const bool reset = workbench.take_layout_reset();
   const bool begins = laid_out_for_ != engine || reset;
   const auto kept = context.settings.engines.find(engine);
+  const auto& opened = workbench.edits()->state().opened;
+  if (begins) kept_in_front_ = !reset && opened == laid_out_opened_ ? panels_in_sight() : FrontTabs();
+  laid_out_opened_ = opened;
   const bool has_own = name_.empty() && kept != context.settings.engines.end() && !kept->second.ini.empty();
   if (begins && has_own) front_tabs_ = restore_layout(kept->second.ini);
   const ImGuiID id = ImGui::DockSpaceOverViewport(ImGui::GetID("panels"), ImGui::GetMainViewport());
@@ -158,6 +161,7 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
   constexpr int settled = 3;
   if (++frames_laid_out_ <= settled) {
     bring_to_front(front_tabs_);
+    bring_to_front(kept_in_front_);
     // Whatever had the keyboard: its tab would come to the front. A dialog keeps it.
     if (workbench.question() == Question::none) ImGui::SetWindowFocus(panel_table().front().title);
   }

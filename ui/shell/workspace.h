@@ -51,9 +51,12 @@ private:
   int frames_laid_out_ = 0;                  ///< since the layout was applied
   std::string before_;                       ///< what it was before a person touched it
   FrontTabs front_tabs_;                     ///< of the layout that was applied last
-  std::string to_front_;                     ///< the panel that comes to the front in this frame
-  PlotContext plots_;                        ///< before the panels, which plot with it
-  WavelengthAxis wavelengths_;               ///< before the panels that share it
+  /// Of which preset that was, and the panels that a person looked at when an edit of it changed its engine: they stay in front.
+  std::shared_ptr<const preset::Preset> laid_out_opened_;
+  FrontTabs kept_in_front_;
+  std::string to_front_;       ///< the panel that comes to the front in this frame
+  PlotContext plots_;          ///< before the panels, which plot with it
+  WavelengthAxis wavelengths_; ///< before the panels that share it
   std::vector<Open> panels_;
   Dialogs dialogs_;
   Palette palette_;

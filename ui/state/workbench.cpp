@@ -4,6 +4,7 @@
 #include "base/counted.h"
 #include "base/files.h"
 #include "engine/engine.h"
+#include "preset/change_engine.h"
 #include "preset/differences.h"
 #include "ui/state/run_record.h"
 #include "ui/state/selection.h"
@@ -55,6 +56,7 @@ bool Workbench::open(const std::string& name, const preset::Overrides& overrides
     messages_.error(error);
     return false;
   }
+  for (const std::string& note : read->preset.provenance.notes) messages_.note(note);
   begin(std::move(read->preset), std::move(read->sweep));
   add_recent(edits_->current().source);
   return true;
@@ -129,6 +131,14 @@ void Workbench::carry_out(const command::New& c)
   begin(std::move(preset));
 }
 
+/// What an edit of the engine takes away with the old one.
+void Workbench::note_left_out(const preset::Preset& before, std::string_view engine)
+{
+  auto json = preset::Json::parse(preset::to_json(before));
+  if (const auto keys = preset::take_foreign(json, engine); !keys.empty())
+    messages_.note(preset::left_out_note(engine, keys) + " (Undo brings it back)");
+}
+
 /// Throws bad_input where the preset could not be read again: a number is out of its range, however it came there, or two fields
 /// contradict each other.
 void Workbench::carry_out(const command::Edit& c)
@@ -138,6 +148,7 @@ void Workbench::carry_out(const command::Edit& c)
   preset::Preset edited = c.preset;
   edited.provenance = {}; // what is wrong from now on is what was typed here, not what the file or an option gave
   preset::parse_preset(preset::to_json(edited), edited.source);
+  if (edited.settings.engine() != edits_->current().settings.engine()) note_left_out(edits_->current(), edited.settings.engine());
   edits_->push(c.label, std::move(edited), c.gesture);
   run_.follow_edit(c.live);
 }

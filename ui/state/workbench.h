@@ -118,6 +118,7 @@ private:
   void carry_out(const command::ResetLayout&);
   void carry_out(const command::KeepLayout& c) { settings_.engines[c.engine].ini = c.ini; }
   void carry_out(const command::ShowPanel& c);
+  void note_left_out(const preset::Preset& before, std::string_view engine);
   void carry_out(const command::SetAppearance& c);
   void carry_out(const command::Report& c) { c.error ? messages_.error(c.line) : messages_.note(c.line); }
   void carry_out(const command::Quit& c) { quitting_ |= !asks_first(c); }

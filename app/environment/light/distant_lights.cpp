@@ -3,8 +3,10 @@
 #include "environment/light/distant_lights.h"
 
 #include "environment/bake/bake.h"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtx/quaternion.hpp>
 
@@ -34,9 +36,12 @@ std::vector<DistantLight> lamps(const scene::Scene& scene)
     const scene::Light& light = scene.lights[i];
     if (scene::is_environment(light)) continue;
     if (light.type != preset::Light::Type::directional)
-      throw bad_input(Place(scene.source) / "scene" / "lights" / i / "type", "is no directional light",
-                      "expected \"directional\": the engine 'environment' knows light from far away only",
-                      "make it directional, or take the engine 'spectral'");
+      throw bad_input(
+          Place(scene.source) / "scene" / "lights" / i / "type", "is no directional light",
+          "expected \"directional\": the engine 'environment' knows light from far away only",
+          fmt::format("give it a direction: --set 'scene.lights.{}={{\"type\": \"directional\", \"direction\": [0, -1, 0]}}'; or "
+                      "take the engine 'spectral'",
+                      i));
     const optics::Colour rgb = optics::xyz_to_linear_srgb(optics::to_xyz(light.spectrum));
     lights.push_back({glm::dvec3(light.direction), light.irradiance_w_m2 * glm::dvec3(rgb[0], rgb[1], rgb[2])});
   }

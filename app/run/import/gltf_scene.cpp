@@ -2,6 +2,7 @@
 #include "run/import/gltf_scene.h"
 
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "scene/materials.h"
@@ -62,6 +63,28 @@ preset::Material glass(const GltfValue& material, const std::string& name, std::
   if (material.object("pbrMetallicRoughness").number("roughnessFactor", 1) > 0.1)
     notes.push_back(fmt::format("material '{}' is rough in the file and polished here", name));
   return glass;
+}
+
+/// What in the file speaks for glass, of a material that is not taken as such; empty where nothing does.
+std::string sign_of_glass(const GltfValue& material, const std::string& name)
+{
+  if (const double part = material.extension("KHR_materials_transmission").number("transmissionFactor", 0); part > 0)
+    return fmt::format("its transmission is {}", part);
+  if (material.extension("KHR_materials_volume").number("thicknessFactor", 0) > 0) return "it has a volume";
+  const double alpha = material.object("pbrMetallicRoughness").numbers<4>("baseColorFactor", {1, 1, 1, 1})[3];
+  if (material.text("alphaMode") == "BLEND" && alpha < 0.5) return fmt::format("its alpha is {}", alpha);
+  for (const char* word : {"glass", "crystal", "diamond", "water", "gem", "quartz", "sapphire", "acrylic", "lens"})
+    if (lower_case(name).find(word) != std::string::npos) return "so says its name";
+  return {};
+}
+
+std::string advice_on_glass(const GltfValue& material, const std::string& name)
+{
+  const std::string sign = sign_of_glass(material, name);
+  if (sign.empty()) return {};
+  return fmt::format("material '{}' may be meant as glass ({}) and is opaque here; to make it glass, where its meshes are closed: "
+                     "--set 'scene.materials.{}={{\"type\": \"dielectric\", \"dispersion\": {}}}'",
+                     name, sign, name, material.extension("KHR_materials_ior").number("ior", 1.5));
 }
 
 constexpr double most_lumens = 683; ///< a watt at 555 nm, by the definition of the candela
@@ -195,7 +218,10 @@ preset::Material material_of(const GltfValue& value, const std::string& name, st
   const bool metal = pbr.number("metallicFactor", 1) >= 0.5, rough = pbr.number("roughnessFactor", 1) >= 0.5;
   if (metal && !rough) material.type = preset::Material::Type::mirror;
   if (metal && rough) notes.push_back(fmt::format("material '{}' is rough metal in the file and matt here", name));
-  if (base[3] < 1 && value.text("alphaMode") == "BLEND") notes.push_back(fmt::format("material '{}' is opaque here", name));
+  if (std::string advice = advice_on_glass(value, name); !advice.empty())
+    notes.push_back(std::move(advice));
+  else if (base[3] < 1 && value.text("alphaMode") == "BLEND")
+    notes.push_back(fmt::format("material '{}' is opaque here", name));
   return material;
 }
 
