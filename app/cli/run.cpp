@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
 #include "run/run.h"
+#include "base/files.h"
 #include "base/interrupts.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"
+#include "report/data.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 
@@ -15,7 +18,24 @@ namespace nephroid::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// The runs to do: one, or those of a sweep in numbered folders.
+/// A file's name has at most 255 bytes, and a folder at times a longer one beside it.
+std::string run_folder(const std::string& varies, std::size_t number)
+{
+  constexpr std::size_t most = 200;
+  return varies.size() <= most ? varies : fmt::format("{}..,{:03}", varies.substr(0, most), number);
+}
+
+/// In the order of the sweep, for the report: names alone put 10 before 2. There is a folder once a run has one.
+void write_order(const std::vector<Target>& targets)
+{
+  const fs::path folder = targets.front().folder.parent_path();
+  if (targets.size() == 1 || !is_there(folder)) return;
+  nlohmann::ordered_json order{{"runs", nlohmann::ordered_json::array()}};
+  for (const Target& target : targets) order["runs"].push_back(target.folder.filename().string());
+  write_file_whole(folder / report::sweep_file, order.dump(2) + "\n");
+}
+
+/// The runs to do: one, or those of a sweep, each in a folder that is called by what varies.
 std::vector<Target> targets_of(const RunOptions& options)
 {
   std::vector<preset::Preset> presets = preset::read_presets(options.preset, options.overrides);
@@ -33,9 +53,12 @@ std::vector<Target> targets_of(const RunOptions& options)
       preset.seed = *options.seed;
       preset::check(preset, [](const std::string&) { return std::string("--seed"); }); // against the reference's
     }
-    const std::string number = fmt::format("{:03}", targets.size() + 1);
-    const bool sweep = presets.size() > 1;
-    targets.push_back({std::move(preset), sweep ? folder / number : folder, sweep ? fmt::format("{}/{}", stem, number) : stem, {}});
+    if (presets.size() == 1)
+      targets.push_back({std::move(preset), folder, stem, {}});
+    else {
+      const std::string name = run_folder(preset.provenance.varies, targets.size() + 1);
+      targets.push_back({std::move(preset), folder / name, fmt::format("{}/{}", stem, name), {}});
+    }
   }
   return targets;
 }
@@ -71,6 +94,7 @@ void run_preset(const RunOptions& options)
   std::vector<Target> targets = targets_of(options);
   Shared shared;
   for (Target& target : targets) {
+    if (&target != &targets.front()) write_order(targets);
     fit_white(options, target, interrupts.token(), shared);
     if (target.preset.animation) {
       render_animation(options, target, interrupts.token(), shared);
@@ -104,7 +128,8 @@ void add_run(CLI::App& program, Session&)
       "frames.csv, and animation.mp4 where ffmpeg is installed.");
   verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
   verb.option("-o,--output", options->folder,
-              {.type = "DIR", .says = "Folder for the run's files (default out/NAME; a sweep's runs in 001, 002, ...)"});
+              {.type = "DIR",
+               .says = "Folder for the run's files (default out/NAME; a sweep's runs each in one of its own inside: seed=1, seed=2, ...)"});
   verb.overrides(options->overrides);
   verb.option("--seconds", options->seconds,
               {.type = "S", .says = "Stop after this much work, instead of where the preset says", .from = 0.001, .to = 1e9});

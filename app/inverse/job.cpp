@@ -196,13 +196,16 @@ private:
 
   void add_pictures(job::Snapshot& snapshot)
   {
-    std::vector<std::vector<std::shared_ptr<const job::Picture>>> columns;
+    std::vector<std::vector<Captioned>> columns;
+    const std::vector<Cost> costs = finished() ? judge_->costs(targets_) : method_->costs();
     for (std::size_t j = 0; j < targets_.size(); ++j) {
       const auto wanted = grey_picture(targets_[j], 1 / brightest(j), layout_.cells),
                  received = received_picture(light(j), brightest(j), layout_);
-      columns.push_back({wanted, received, difference_picture(*wanted, *received)});
+      columns.push_back({{wanted, fmt::format("wanted at {} mm", layout_.distances[j])},
+                         {received, fmt::format("cast: cost {:.3f}", costs[j].cost)},
+                         {difference_picture(*wanted, *received), "red: too much, blue: too little"}});
       const char* const names[] = {"target", "receiver", "difference"};
-      for (std::size_t i = 0; i < 3; ++i) snapshot.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i]});
+      for (std::size_t i = 0; i < 3; ++i) snapshot.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i].picture});
     }
     snapshot.pictures.push_back({"slopes", slopes_picture(method_->slopes(), method_->heights(), layout_)});
     snapshot.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);

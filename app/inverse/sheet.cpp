@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/sheet.h"
 
+#include "image/image.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -16,6 +18,51 @@ void paste(const job::Picture& from, job::Picture& into, int left, int top, int 
       const float* const pixel = from.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(v) * from.width + u);
       std::copy_n(pixel, 3, into.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(top + y) * into.width + left + x));
     }
+}
+
+/// Pictures of one size in columns and rows, each below a line of words, with the room that is left between them.
+struct Grid {
+  glm::ivec2 counts, slot, size; ///< of a slot and of the picture in it, in pixels
+  int line = 0;                  ///< height of the words' line; 0: there is no room for words
+
+  glm::ivec2 corner(const glm::ivec2& at) const { return at * slot + (slot - size - glm::ivec2(0, line)) / 2; }
+};
+
+Grid grid_of(const glm::ivec2& counts, const glm::ivec2& shape, const glm::ivec2& sheet)
+{
+  constexpr int least_line = 12, least_width = 80; // pixels in which words can be read
+  Grid grid{counts, sheet / counts, {}};
+  const int gap = std::max(1, std::min(grid.slot.x, grid.slot.y) / 32);
+  if (const int line = std::clamp(grid.slot.y / 12, least_line, 28); grid.slot.x >= least_width && grid.slot.y >= 4 * line)
+    grid.line = line;
+  const glm::dvec2 room = glm::dvec2(grid.slot - gap) - glm::dvec2(0, grid.line);
+  const double scale = std::max(0.0, std::min(room.x / shape.x, room.y / shape.y));
+  grid.size = glm::ivec2(scale * glm::dvec2(shape));
+  return grid;
+}
+
+/// White, at the left of the box and in its middle, as large as fits.
+void write(const std::string& words, job::Picture& into, const glm::ivec2& corner, const glm::ivec2& box)
+{
+  constexpr int least = 7; // of a letter, in pixels
+  if (box.y == 0 || words.empty()) return;
+  try {
+    const auto height = [](const glm::ivec2& room) { return room.y * 6 / 10; };
+    image::Image text = image::text_picture(words, height(box), "sheet");
+    if (text.width > box.x) {
+      const int smaller = height(box) * box.x / text.width;
+      if (smaller < least) return;
+      text = image::text_picture(words, smaller, "sheet");
+    }
+    const int top = corner.y + std::max(0, box.y - text.height) / 2;
+    for (int y = 0; y < std::min(text.height, box.y); ++y)
+      for (int x = 0; x < std::min(text.width, box.x); ++x) {
+        const float value = text.data[static_cast<std::size_t>(y * text.width + x)];
+        float* const pixel = into.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(top + y) * into.width + corner.x + x);
+        for (int c = 0; c < 3; ++c) pixel[c] = std::max(pixel[c], value);
+      }
+  } catch (const Error&) { // without the font the pictures are all there is
+  }
 }
 
 } // namespace
@@ -58,24 +105,29 @@ std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> s
   return picture;
 }
 
-std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<std::shared_ptr<const job::Picture>>>& columns, int width,
-                                          int height)
+std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, int width, int height)
 {
   auto picture = std::make_shared<job::Picture>();
   picture->width = width;
   picture->height = height;
   picture->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.02f); // a grey that parts black pictures
-  const int across = static_cast<int>(columns.size()), down = static_cast<int>(columns.front().size());
-  const job::Picture& first = *columns.front().front();
-  const int gap = std::max(1, std::min(width / across, height / down) / 32);
-  const double fits =
-      std::min((static_cast<double>(width) / across - gap) / first.width, (static_cast<double>(height) / down - gap) / first.height);
-  const double scale = fits >= 1 ? static_cast<int>(fits) : std::max(fits, 0.0);
-  const int w = static_cast<int>(scale * first.width), h = static_cast<int>(scale * first.height);
-  for (int column = 0; column < across; ++column)
-    for (int row = 0; row < down; ++row) {
-      const int left = (2 * column + 1) * width / (2 * across) - w / 2, top = (2 * row + 1) * height / (2 * down) - h / 2;
-      paste(*columns[static_cast<std::size_t>(column)][static_cast<std::size_t>(row)], *picture, std::max(left, 0), std::max(top, 0), w, h);
+  const glm::ivec2 shape(lists.front().front().picture->width, lists.front().front().picture->height);
+  const glm::ivec2 counts(lists.size(), lists.front().size());
+  const auto grid_with = [&](int across, int down) { return grid_of({across, down}, shape, {width, height}); };
+  const Grid upright = grid_with(counts.x, counts.y), lying = grid_with(counts.y, counts.x);
+  const bool lies = lying.size.x > upright.size.x;
+  Grid grid = lies ? lying : upright;
+  const Grid square = grid_with(2, (counts.y + 1) / 2); // of one list, which in a row would leave most of a square sheet empty
+  const bool wraps = counts.x == 1 && square.size.x > grid.size.x;
+  if (wraps) grid = square;
+  for (int list = 0; list < counts.x; ++list)
+    for (int item = 0; item < counts.y; ++item) {
+      const Captioned& shown = lists[static_cast<std::size_t>(list)][static_cast<std::size_t>(item)];
+      const glm::ivec2 corner = grid.corner(wraps  ? glm::ivec2(item % 2, item / 2)
+                                            : lies ? glm::ivec2(item, list)
+                                                   : glm::ivec2(list, item));
+      paste(*shown.picture, *picture, corner.x, corner.y + grid.line, grid.size.x, grid.size.y);
+      write(shown.words, *picture, corner, {grid.size.x, grid.line});
     }
   return picture;
 }

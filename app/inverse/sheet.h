@@ -5,6 +5,7 @@
 #include "job/job.h"
 
 #include <span>
+#include <string>
 
 namespace nephroid::inverse {
 
@@ -18,9 +19,14 @@ std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wante
 std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, std::span<const double> heights,
                                                    const Layout& layout);
 
-/// All in one picture of this size: a column for each receiver; what is wanted, what is there, the difference below each other. Cells are
-/// squares of pixels where they fit.
-std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<std::shared_ptr<const job::Picture>>>& columns, int width,
-                                          int height);
+/// A picture of a sheet and the words above it.
+struct Captioned {
+  std::shared_ptr<const job::Picture> picture;
+  std::string words;
+};
+
+/// All in one picture of this size: a column for each of the lists, or a row, whichever has larger pictures; one list alone may stand in two
+/// columns. Words that would be too small to read are left out, and all of them where there is no font.
+std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, int width, int height);
 
 } // namespace nephroid::inverse

@@ -51,10 +51,20 @@ bool starts_with(const std::vector<std::string>& path, const std::vector<std::st
   return path.size() >= start.size() && std::equal(start.begin(), start.end(), path.begin());
 }
 
+/// [0, 1.5] as "0_1.5"
+std::string joined(const Json& numbers)
+{
+  std::string text;
+  for (const Json& number : numbers) text += (text.empty() ? "" : "_") + number.dump();
+  return text;
+}
+
+bool is_list_of_numbers(const Json& value) { return value.is_array() && !value.empty() && std::ranges::all_of(value, &Json::is_number); }
+
 /// Numbers and words say what they are; they must do in the name of a folder.
 std::string label(const Json& value)
 {
-  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::string text = value.is_string() ? value.get<std::string>() : is_list_of_numbers(value) ? joined(value) : value.dump();
   for (char& c : text)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '_' && c != '-' && c != '+') c = '-';
   return text.substr(0, 40);
@@ -62,10 +72,15 @@ std::string label(const Json& value)
 
 std::vector<std::string> labels(const Json& values)
 {
-  std::vector<std::string> all;
-  for (const Json& value : values) all.push_back(label(value));
-  const bool plain = std::none_of(values.begin(), values.end(), [](const Json& v) { return v.is_structured(); });
-  if (!plain || std::set<std::string>(all.begin(), all.end()).size() < all.size())
+  const auto all_differ = [](const std::vector<std::string>& words) { return std::set(words.begin(), words.end()).size() == words.size(); };
+  std::vector<std::string> all, of_files; // "materials/N-BK7.yml" and "N-BK7.yml"
+  for (const Json& value : values) {
+    all.push_back(label(value));
+    of_files.push_back(value.is_string() ? label(std::filesystem::path(value.get<std::string>()).filename().string()) : all.back());
+  }
+  if (all_differ(of_files)) all = of_files;
+  const bool plain = std::none_of(values.begin(), values.end(), [](const Json& v) { return v.is_structured() && !is_list_of_numbers(v); });
+  if (!plain || !all_differ(all))
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = std::to_string(i);
   return all;
 }

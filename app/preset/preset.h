@@ -212,6 +212,7 @@ class Origins;
 struct Provenance {
   std::shared_ptr<const Origins> origins; ///< who gave each value; null where nothing was read
   std::string run;                        ///< its name as one of a sweep's runs; empty where there is no sweep
+  std::string varies;                     ///< the part of it that is its own, fit for a folder's name: "threshold_deg=0.1,seed=2"
   std::optional<int> frame;               ///< which one of an animation it is (read.h)
   std::vector<std::string> notes;         ///< what a change of the engine left out, a line each (change_engine.h)
   bool operator==(const Provenance&) const { return true; }

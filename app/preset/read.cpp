@@ -240,8 +240,8 @@ Preset finish(const SweptDocument& run)
 {
   const Document& document = run.document;
   const std::string name = base_name(document) + run.suffix;
-  const Provenance provenance{std::make_shared<const Origins>(document.origins()), run.suffix.empty() ? std::string() : name, std::nullopt,
-                              document.notes()};
+  const Provenance provenance{std::make_shared<const Origins>(document.origins()), run.suffix.empty() ? std::string() : name,
+                              run.suffix.substr(std::min<std::size_t>(1, run.suffix.size())), std::nullopt, document.notes()};
   Preset unread;
   unread.provenance = provenance;
   return at_origins(unread, [&] {

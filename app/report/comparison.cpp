@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -110,6 +111,12 @@ bool have_same_settings(const RunFolder& a, const RunFolder& b, const std::strin
   return settings_of(a) == settings_of(b);
 }
 
+/// Whether both pictures become the same one in the end, but for what an engine's settings leave out.
+bool have_one_truth(const RunFolder& a, const RunFolder& b)
+{
+  return std::ranges::all_of(std::array{"scene.", "unit", "white"}, [&](const char* part) { return have_same_settings(a, b, part); });
+}
+
 /// Why times of two runs are to be read with care; empty where there is no reason.
 std::string remarks(const RunFolder& a, const RunFolder& b, bool have_one_reference, bool by_estimate)
 {
@@ -119,7 +126,6 @@ std::string remarks(const RunFolder& a, const RunFolder& b, bool have_one_refere
   };
   const auto differ = [&](const char* key) { return a.run[key] != b.run[key]; };
   const std::string engine = a.run["engine"]; // its settings are the part of the preset with its name
-  add(!have_same_settings(a, b, "scene."), "different scenes");
   add(differ("device"), "different devices");
   add(differ("version") || differ("commit") || differ("compiler"), "different builds of the program");
   add(!by_estimate && !have_one_reference, "different references");
@@ -162,6 +168,7 @@ private:
     if (of_a.judged().errors.empty() || of_b.judged().errors.empty()) return {};
     const bool by_estimate = of_a.error.errors.empty() || of_b.error.errors.empty();
     const Curve &curve_a = by_estimate ? of_a.estimate : of_a.error, &curve_b = by_estimate ? of_b.estimate : of_b.error;
+    if (!have_one_truth(runs_[a], runs_[b])) return "different scenes: to be as near to another truth says nothing of the speed";
     if (curve_a.errors.empty() || curve_b.errors.empty()) return "one is measured against a reference, the other only estimated";
     const double lowest = by_estimate ? 0 : std::max(of_a.lowest_meaningful(), of_b.lowest_meaningful());
     if (const auto both = measure::errors_both_reached(curve_a, curve_b, lowest)) {

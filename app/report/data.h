@@ -32,10 +32,14 @@ struct RunFolder {
 
 inline constexpr std::size_t max_runs = 64;
 
+/// In the folder of a sweep: {"runs": the names of their folders in the sweep's order}.
+inline constexpr const char* sweep_file = "sweep.json";
+
 /// The files in a folder whose names end so (".exr"), by name.
 std::set<std::filesystem::path> files_ending(const std::filesystem::path& folder, const std::string& extension);
 
-/// The runs in these folders: a folder with a run.json is one, a sweep's folder stands for the runs in its own folders, by name.
+/// The runs in these folders: a folder with a run.json is one, a sweep's folder stands for the runs in its own folders: those that its
+/// sweep_file names, in that order, or without one all by name.
 /// Throws bad_input for a folder that is neither or is named twice, for more runs than max_runs, for an unfinished run, and at FILE or
 /// FILE#/pointer for a file that is missing, cut or of other types than a run writes. What only some engines write may be missing.
 std::vector<RunFolder> read_runs(std::span<const std::filesystem::path> folders);

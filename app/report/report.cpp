@@ -118,6 +118,18 @@ Json read_curves(const fs::path& folder)
 bool is_begun_run(const fs::path& folder) { return is_there(folder / "plan.json") && is_there(folder / "preset.json"); }
 
 /// The run in a folder, or the runs in its folders; those that have begun but not ended are among them, for read_run to refuse.
+/// Of a sweep's runs those that its file names, as far as they are there. An earlier sweep may have left others.
+std::vector<fs::path> in_order(const fs::path& sweep, std::vector<fs::path> runs)
+{
+  if (!is_there(sweep / sweep_file)) return runs;
+  const RunDocument order(sweep / sweep_file);
+  std::vector<fs::path> ordered;
+  for (std::size_t i = 0; i < order.at("/runs", Type::list).size(); ++i)
+    if (const fs::path run = sweep / order.at(fmt::format("/runs/{}", i), Type::text).get<std::string>(); std::ranges::count(runs, run) > 0)
+      ordered.push_back(run);
+  return ordered.empty() ? runs : ordered;
+}
+
 std::vector<fs::path> runs_in(const fs::path& folder)
 {
   const auto is_run = [](const fs::path& path) { return is_there(path / "run.json") || is_begun_run(path); };
@@ -133,7 +145,7 @@ std::vector<fs::path> runs_in(const fs::path& folder)
     throw bad_input(folder.string(), "holds no run", "expected a folder with run.json, or one of a sweep with such folders inside",
                     "make one with `nephroid run`");
   std::sort(runs.begin(), runs.end());
-  return runs;
+  return in_order(folder, std::move(runs));
 }
 
 RunFolder read_run(const fs::path& folder)

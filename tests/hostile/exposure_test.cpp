@@ -48,7 +48,7 @@ TEST_F(Exposure, IsOneForASweepAnAnimationAndAReference)
     "scene": {"camera": {"resolution": [16, 16]}}, "sweep": {"scene.lights.0.irradiance_w_m2": [1, 100]}})");
   const Ended sweep = nephroid::test::nephroid({"run", "sweep.json", "--passes", "1"}, scratch.path(), logs);
   ASSERT_EQ(sweep.exit_code, 0) << sweep.err;
-  EXPECT_EQ(white("out/sweep/001"), white("out/sweep/002"));
+  EXPECT_EQ(white("out/sweep/irradiance_w_m2=1"), white("out/sweep/irradiance_w_m2=100"));
 
   const std::string tracks =
       R"([{"path": "scene.lights.0.irradiance_w_m2", "keys": [{"frame": 0, "value": 1}, {"frame": 1, "value": 100}]}])";

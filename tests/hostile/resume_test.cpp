@@ -144,11 +144,11 @@ TEST_F(Resumed, SweepsNameTheFileThatChanged)
   write("sweep.json", R"({"parent": "inverse.json", "sweep": {"seed": [1, 2]}})");
   ASSERT_EQ(resume("sweep").exit_code, 0);
   write_picture("wanted.exr", 0.75f);
-  expect_refused_line(resume("sweep"), "out/sweep/001: this run is finished, but the file 'wanted.exr' has changed since the run began");
-  fs::remove_all(folder / "out/sweep/001");
+  expect_refused_line(resume("sweep"), "out/sweep/seed=1: this run is finished, but the file 'wanted.exr' has changed since the run began");
+  fs::remove_all(folder / "out/sweep/seed=1");
   const Ended ended = resume("sweep");
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("out/sweep/002: this run is finished, but the file 'wanted.exr' has changed since the run began"));
+  EXPECT_THAT(ended.err, HasSubstr("out/sweep/seed=2: this run is finished, but the file 'wanted.exr' has changed since the run began"));
 }
 
 // The frames of an animation are runs of their own, and those that are no longer the preset's are rendered again.

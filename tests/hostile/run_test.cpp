@@ -180,7 +180,7 @@ TEST_F(Runs, RefuseCheckpointsOfAnotherDeviceOrOtherKernels)
   EXPECT_EQ(run("a", {"--passes", "4", "--resume", "--kernels", kernels.string()}).exit_code, 0) << "the same text from another place";
 }
 
-TEST_F(Runs, SweepsFillNumberedFolders)
+TEST_F(Runs, SweepsFillFoldersThatAreCalledByWhatVaries)
 {
   write_file_whole(scratch.path() / "sweep.json",
                    R"({"parent": "spectral/plate.json", "scene": {"camera": {"resolution": [16, 16]}}, "sweep": {"seed": [4, 5, 6]}})");
@@ -188,7 +188,7 @@ TEST_F(Runs, SweepsFillNumberedFolders)
   const Ended ended = nephroid::test::nephroid(arguments, scratch.path(), logs);
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   int seed = 4;
-  for (const char* folder : {"out/sweep/001", "out/sweep/002", "out/sweep/003"}) EXPECT_EQ(run_json(folder)["seed"], seed++);
+  for (const char* folder : {"out/sweep/seed=4", "out/sweep/seed=5", "out/sweep/seed=6"}) EXPECT_EQ(run_json(folder)["seed"], seed++);
 
   // Every line names its run as run.json and the plan do.
   const std::vector<json> plans = json_lines(nephroid::test::nephroid({"plan", "sweep.json", "--json"}, scratch.path(), logs).out);

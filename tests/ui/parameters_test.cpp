@@ -161,7 +161,7 @@ TEST_F(ParametersTest, AWhiteThatIsFittedIsANumberAsSoonAsItIsKnown)
 TEST_F(ParametersTest, AnotherEngineIsChosenWhateverTheOldOneHad)
 {
   open(R"({"engine": "spectral", "white": "auto", "scene": {"camera": {"resolution": [32, 24]}, "lights": [{"type": "point"}]},
-    "spectral": {"threshold_deg": 1}, "reference": {"type": "recipe", "spectral": {}}, "stop": {"error": 0.5}})");
+    "spectral": {"threshold_deg": 1}, "reference": {"type": "recipe", "spectral": {"step_nm": 2}}, "stop": {"error": 0.5}})");
   const std::string before = text();
   choose("/engine", "inverse");
   EXPECT_TRUE(problems().empty());

@@ -166,7 +166,7 @@ TEST(PresetDifferences, WhatNoCommandLineCanSayIsRefusedWithTheWayOn)
   EXPECT_EQ(refusal(p), "untitled: the preset is in no file; save the preset first, then copy the command line");
   p = preset::read_preset(folder.write("a.json", R"({"engine":"spectral","spectral":{"photons_per_pass":1000}})"));
   p.settings = preset::read_preset("inverse/shapes").settings;
-  EXPECT_THAT(refusal(p), HasSubstr("what was changed cannot be said by --set"));
+  EXPECT_TRUE(same(preset::read_preset(p.source, preset::recipe_of(p).overrides), p)) << "another engine can be said";
   p = preset::read_preset((folder.path() / "a.json").string());
   for (int i = 0; i < 60; ++i) p.scene.lights.emplace_back();
   EXPECT_THAT(refusal(p), HasSubstr("expected at most 4000; save the preset first"));

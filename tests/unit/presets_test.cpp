@@ -154,7 +154,7 @@ TEST_F(PresetFiles, AnotherEngineTakesAwayWhatItDoesNotKnow)
 {
   const std::string parent = write("parent.json", R"({"engine": "spectral", "white": 3, "spectral": {"threshold_deg": 1},
     "scene": {"camera": {"fov_deg": 30}, "lights": [{"type": "point"}]},
-    "reference": {"type": "recipe", "spectral": {}, "passes": 9}, "sweep": {"spectral.threshold_deg": [1, 2]},
+    "reference": {"type": "recipe", "spectral": {"step_nm": 2}, "passes": 9}, "sweep": {"spectral.threshold_deg": [1, 2]},
     "animation": {"frames": 4, "tracks": [{"path": "spectral.threshold_deg", "keys": [{"frame": 0, "value": 1}]},
                                           {"path": "scene.camera.fov_deg", "keys": [{"frame": 0, "value": 20}]}]}})");
   const auto expect_environment = [](const Preset& p, const std::string& note) {
@@ -235,6 +235,9 @@ TEST_F(PresetFiles, NamesOfSweptRunsAreUniqueAndGoodForFolders)
     EXPECT_EQ(p.name.find('/'), std::string::npos) << p.name;
   }
   EXPECT_EQ(names.size(), 8u);
+  const std::string glasses = write("g.json", R"({"engine":"spectral","scene":{"materials":{"g":{"type":"dielectric","dispersion":1.5}}},
+      "sweep":{"scene.materials.g.dispersion":["materials/N-BK7.yml",1.7],"scene.camera.resolution":[[32,16]]}})");
+  EXPECT_EQ(preset::read_presets(glasses).front().provenance.varies, "dispersion=N-BK7.yml,resolution=32_16");
   EXPECT_TRUE(names.contains("s,dispersion=0,scene.lights.0.power_w=1,scene.lights.1.power_w=2,stop=1,unit=0"));
 }
 

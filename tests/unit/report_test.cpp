@@ -201,7 +201,12 @@ TEST_F(Report, warns_of_other_scenes_devices_builds_and_references)
   write_file_whole(folder / "b" / "run.json", other.dump());
   EXPECT_EQ(remark(metric({"a", "b"})), "different devices, different builds of the program");
   write_file_whole(folder / "b" / "preset.json", R"({"seed": 1, "scene": {"lights": [{"power_w": 2}]}})");
-  EXPECT_EQ(remark(metric({"a", "b"})), "different scenes, different devices, different builds of the program");
+  EXPECT_EQ(metric({"a", "b"}).at("pairs"), Json::array()) << "to another truth there is another way";
+  EXPECT_THAT(metric({"a", "b"}).at("not_compared").at(0).get<std::string>(), StartsWith("1 and 2 (different scenes"));
+  for (const char* key : {"white", "unit"}) {
+    write_file_whole(folder / "b" / "preset.json", Json{{"seed", 1}, {key, 2}}.dump());
+    EXPECT_EQ(metric({"a", "b"}).at("pairs"), Json::array()) << key;
+  }
 }
 
 /// What an engine measures beside errors is a curve as well: no slope, no comparison, values of any sign; unless the run is judged by it.
@@ -278,6 +283,10 @@ TEST_F(Report, takes_a_sweep_as_its_runs)
   EXPECT_EQ(sweep.at("runs").at(2).at("label"), "seed=3"); // the part of the name that differs
   EXPECT_EQ(sweep.at("runs").at(2).at("settings"), Json({{"scene.lights.0.power_w", "2"}, {"seed", "3"}}));
   EXPECT_EQ(data({"sweep/001"}).at("title"), "plate,seed=1");
+  // In the sweep's order, without what an earlier one left.
+  write_file_whole(folder / "sweep" / "sweep.json", R"({"runs": ["003", "not yet", "001"]})");
+  EXPECT_EQ(data({"sweep"}).at("runs").size(), 2u);
+  EXPECT_EQ(data({"sweep"}).at("runs").at(0).at("label"), "seed=3");
 }
 
 TEST_F(Report, says_what_is_not_there)

@@ -90,6 +90,21 @@ document.addEventListener("keydown", event => {
   act();
 });
 
+/// Every run's picture with what it is called, as long as there are several of one size.
+function picturesSideBySide() {
+  const pictures = data.pictures.length ? data.pictures[0].pictures.filter(({ kind }) => kind === "run") : [];
+  if (pictures.length < 2) return [];
+  const grid = element("div.side");
+  grid.style.setProperty("--across", Math.min(pictures.length, 4));
+  grid.append(...pictures.map(({ runs, png }) => {
+    const image = element("img");
+    image.alt = data.runs[runs[0]].label;
+    image.src = "data:image/png;base64," + png;
+    return element("figure", image, element("figcaption", ...runName(runs[0])));
+  }));
+  return [grid];
+}
+
 function pictureViewers() {
   const names = data.pictures.map(group => group.name);
   return [data.pictures.length ? null : element("p", "No run has its picture any more."),

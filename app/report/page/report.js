@@ -72,9 +72,9 @@ function machineOf(run) {
 
 document.title = data.title + " - Nephroid";
 const sections = [
+  section("pictures", "Pictures", ...picturesSideBySide(), ...pictureViewers(), ...data.notes.map(text => note(text))),
   section("compared", "What was compared", ...runsTable(), ...settingsTable(), ...errorsTable()),
   errorsSection(),
-  section("pictures", "Pictures", ...pictureViewers(), ...data.notes.map(text => note(text))),
   section("plans", "Plans", ...forEachRun(planOf)),
   section("machines", "Machines", ...forEachRun(machineOf)),
 ];
