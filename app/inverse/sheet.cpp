@@ -21,19 +21,19 @@ void paste(const job::Picture& from, job::Picture& into, int left, int top, int 
 }
 
 /// Pictures of one size in columns and rows, each below a line of words, with the room that is left between them.
-struct Grid {
+struct SlotGrid {
   glm::ivec2 counts, slot, size; ///< of a slot and of the picture in it, in pixels
   int line = 0;                  ///< height of the words' line; 0: there is no room for words
 
   glm::ivec2 corner(const glm::ivec2& at) const { return at * slot + (slot - size - glm::ivec2(0, line)) / 2; }
 };
 
-Grid grid_of(const glm::ivec2& counts, const glm::ivec2& shape, const glm::ivec2& sheet)
+SlotGrid grid_of(const glm::ivec2& counts, const glm::ivec2& shape, const glm::ivec2& sheet)
 {
-  constexpr int least_line = 12, least_width = 80; // pixels in which words can be read
-  Grid grid{counts, sheet / counts, {}};
+  constexpr int least_line = 12, least_slot = 80; // pixels in which words can be read
+  SlotGrid grid{counts, sheet / counts, {}};
   const int gap = std::max(1, std::min(grid.slot.x, grid.slot.y) / 32);
-  if (const int line = std::clamp(grid.slot.y / 12, least_line, 28); grid.slot.x >= least_width && grid.slot.y >= 4 * line)
+  if (const int line = std::clamp(grid.slot.y / 12, least_line, 28); grid.slot.x >= least_slot && grid.slot.y >= 4 * line)
     grid.line = line;
   const glm::dvec2 room = glm::dvec2(grid.slot - gap) - glm::dvec2(0, grid.line);
   const double scale = std::max(0.0, std::min(room.x / shape.x, room.y / shape.y));
@@ -114,10 +114,10 @@ std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captione
   const glm::ivec2 shape(lists.front().front().picture->width, lists.front().front().picture->height);
   const glm::ivec2 counts(lists.size(), lists.front().size());
   const auto grid_with = [&](int across, int down) { return grid_of({across, down}, shape, {width, height}); };
-  const Grid upright = grid_with(counts.x, counts.y), lying = grid_with(counts.y, counts.x);
+  const SlotGrid upright = grid_with(counts.x, counts.y), lying = grid_with(counts.y, counts.x);
   const bool lies = lying.size.x > upright.size.x;
-  Grid grid = lies ? lying : upright;
-  const Grid square = grid_with(2, (counts.y + 1) / 2); // of one list, which in a row would leave most of a square sheet empty
+  SlotGrid grid = lies ? lying : upright;
+  const SlotGrid square = grid_with(2, (counts.y + 1) / 2); // of one list, which in a row would leave most of a square sheet empty
   const bool wraps = counts.x == 1 && square.size.x > grid.size.x;
   if (wraps) grid = square;
   for (int list = 0; list < counts.x; ++list)
