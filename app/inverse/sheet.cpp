@@ -33,8 +33,7 @@ SlotGrid grid_of(const glm::ivec2& counts, const glm::ivec2& shape, const glm::i
   constexpr int least_line = 12, least_slot = 80; // pixels in which words can be read
   SlotGrid grid{counts, sheet / counts, {}};
   const int gap = std::max(1, std::min(grid.slot.x, grid.slot.y) / 32);
-  if (const int line = std::clamp(grid.slot.y / 12, least_line, 28); grid.slot.x >= least_slot && grid.slot.y >= 4 * line)
-    grid.line = line;
+  if (const int line = std::clamp(grid.slot.y / 12, least_line, 28); grid.slot.x >= least_slot && grid.slot.y >= 4 * line) grid.line = line;
   const glm::dvec2 room = glm::dvec2(grid.slot - gap) - glm::dvec2(0, grid.line);
   const double scale = std::max(0.0, std::min(room.x / shape.x, room.y / shape.y));
   grid.size = glm::ivec2(scale * glm::dvec2(shape));
