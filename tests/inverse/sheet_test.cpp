@@ -37,7 +37,8 @@ TEST(InverseSheet, WordsStandAboveThePictures)
   const auto with_words = inverse::sheet(lists(3, "wanted at 100 mm"), 768, 768), without = inverse::sheet(lists(3, ""), 768, 768);
   EXPECT_EQ(part(*without, 0.6f, 2), 0);
   EXPECT_GT(part(*with_words, 0.6f, 2), 0.005);
-  EXPECT_EQ(part(*with_words, 0.45f, 0.55f), part(*without, 0.45f, 0.55f)) << "and not on them";
+  // No grey of a letter's edge is as near a half.
+  EXPECT_EQ(part(*with_words, 0.4999f, 0.5001f), part(*without, 0.4999f, 0.5001f)) << "and not on them";
   // What nobody could read is not written; any size is a sheet.
   for (const int size : {1, 5, 60}) EXPECT_EQ(part(*inverse::sheet(lists(3, "wanted at 100 mm"), size, size), 0.6f, 2), 0) << size;
 }
