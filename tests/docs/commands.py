@@ -160,7 +160,9 @@ class Runner:
             self.leave_out(command, "no Xvfb, or a build without the window")
             return
         picture = value_of(command.words, "--screenshot")
-        words = list(command.words)
+        words = []
+        for word in command.words:  # as a shell does
+            words += sorted(str(path.relative_to(folder)) for path in folder.glob(word)) if "*" in word else [word]
         for name in ("--frames", "--until"):
             if found := value_of(words, name):
                 del words[found[0]:found[0] + 2]
