@@ -74,7 +74,7 @@ public:
       const double seen = renderer_ ? static_cast<double>(renderer_->passes()) + renderer_->part() : 0;
       p.work = photons_ ? photons_->progress().work : static_cast<std::uint64_t>(seen * width_ * height_);
       if (!refines()) p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
-      const double sent = photons_ ? static_cast<double>(photons_->rounds()) / photon_rounds : seen; // passes of photons
+      const double sent = photons_ ? photon_passes() : seen;
       const auto part = [&](double passes) { return passes_ > 0 ? std::min(passes / static_cast<double>(passes_), 1.0) : 0; };
       const double rendered = std::min((part(seen) + part(sent)) / 2, 0.999); // maps of photons come last
       // A bake takes about as long as all passes.
@@ -164,7 +164,7 @@ public:
       if (renderer_ && go_on_with(preset)) { // another picture begins
         photons_.reset();
         asked_for_photons_ = false;
-        rounds_ahead_ = 0;
+        passes_ahead_ = 0;
         bake_seconds_ = render_seconds_ = photon_seconds_ = 0;
         caustics_seconds_before_ = caustics_seconds;
       }
@@ -193,14 +193,18 @@ private:
     return photons_ ? std::min(renderer_->passes(), photons_->progress().step) : renderer_->passes();
   }
 
-  /// Two rounds of photons come before each of the first two passes of paths from the eye, for a first picture of both soon: then there are
-  /// two halves of each. Eight follow each later one.
+  /// Of photons, with the part of the one in hand.
+  double photon_passes() const { return static_cast<double>(photons_->rounds()) / static_cast<double>(photons_->rounds_of_pass()); }
+
+  /// A quarter of a pass of photons comes before each of the first two passes of paths from the eye, for a first picture of both soon: then
+  /// there are two halves of each. A whole one follows each later one.
   bool wants_photons() const
   {
     if (!refines() || (asked_for_photons_ && !photons_)) return false;
     if (!photons_) return true;
-    const std::int64_t passes = renderer_->passes(), rounds = std::max(2 * (passes + 1), photon_rounds * (passes - 1) + 2);
-    return photons_->progress().step < most_passes() && (passes >= most_passes() || photons_->rounds() < rounds + rounds_ahead_);
+    const auto passes = static_cast<double>(renderer_->passes());
+    return photons_->progress().step < most_passes() &&
+           (renderer_->passes() >= most_passes() || photon_passes() < std::max((passes + 1) / 4, passes - 0.75) + passes_ahead_);
   }
 
   void send_photons()
@@ -254,7 +258,7 @@ private:
     bool has_photons = photons_ != nullptr;
     state.value(caustics_seconds);
     state.value(photon_seconds_);
-    state.value(rounds_ahead_);
+    state.value(passes_ahead_);
     state.value(has_photons);
     renderer_->state(state);
     if (caustics_) caustics_seconds_before_ = caustics_->seconds() - caustics_seconds;
@@ -286,7 +290,7 @@ private:
     bake_ = baker_->take();
     baker_.reset(); // its device memory is for others
     keep();
-    rounds_ahead_ = photons_ ? photons_->rounds() : 0;
+    passes_ahead_ = photons_ ? photon_passes() : 0;
     begin_rendering(std::nullopt);
   }
 
@@ -421,7 +425,7 @@ private:
   bool bakes_next_ = false;
   std::unique_ptr<photons::Run> photons_; ///< null: there are none, or not yet
   bool asked_for_photons_ = false;        ///< whether it is known which
-  std::int64_t rounds_ahead_ = 0;         ///< of photons when the bake was done
+  double passes_ahead_ = 0;               ///< of photons when the bake was done
   std::uint64_t baked_photons_ = 0;       ///< that the finished bake took here
   double bake_seconds_ = 0, render_seconds_ = 0, photon_seconds_ = 0;
   std::shared_ptr<const job::Picture> sheet_; ///< of the directions in spheres_

@@ -21,8 +21,9 @@ photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& 
   photons::Settings photons;
   photons.direct = photons.background = false;
   photons.caustic = settings(preset).cast;
-  photons.rounds = photon_rounds;
-  return photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
+  photons::RunPlan plan = photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
+  plan.first_picture = false; // the spheres make it
+  return plan;
 }
 
 std::unique_ptr<photons::Run> make_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,

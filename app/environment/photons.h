@@ -5,9 +5,6 @@
 
 namespace nephroid::environment {
 
-/// In which a pass has its photons, so that the first two are there soon.
-inline constexpr int photon_rounds = 8;
-
 /// preset: of this engine. scene: with the environment as a light. Throws as photons::make_plan.
 photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 

@@ -84,20 +84,21 @@ public:
     kernel_ = compute::Program(world.context, "photons/background.cl", defines).kernel("background");
   }
 
-  bool step(std::int64_t pass) override
-  {
-    return sample(pass, kernel_, tables_.limit,
-                  {{"texels", texels_},
-                   {"primary_xyz", primary_xyz_},
-                   {"size", tables_.size},
-                   {"wavelengths", wavelengths_},
-                   {"spectrum_cdf", spectrum_cdf_},
-                   {"film_scale", static_cast<float>(tables_.film_scale)}});
-  }
-
-  void develop(std::int64_t, bool, job::Picture& picture) override { add_to(picture, tables_.film_scale * world_.white / radiance_); }
-
 private:
+  void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override
+  {
+    world_.run(kernel_, count, 64,
+               {{"texels", texels_},
+                {"primary_xyz", primary_xyz_},
+                {"size", tables_.size},
+                {"wavelengths", wavelengths_},
+                {"spectrum_cdf", spectrum_cdf_},
+                {"film_scale", static_cast<float>(tables_.film_scale)}},
+               more);
+  }
+  double limit() const override { return tables_.limit; }
+  double quanta_per_unit() const override { return tables_.film_scale * world_.white / radiance_; }
+
   double radiance_; ///< of the texel (1, 1, 1)
   BackgroundTables tables_;
   compute::Buffer<float> texels_;

@@ -15,18 +15,18 @@ public:
   {
   }
 
-  bool step(std::int64_t pass) override
-  {
-    const RunTables& t = world_.tables;
-    return sample(pass, kernel_, t.direct_limit,
-                  {{"reflected_xyz_all", world_.buffers.reflected_xyz_all},
-                   {"cluster_cdf", world_.buffers.cluster_cdf},
-                   {"film_scale", world_.on_device(t.direct_scale)}});
-  }
-
-  void develop(std::int64_t, bool, job::Picture& picture) override { add_to(picture, world_.tables.direct_scale * world_.white); }
-
 private:
+  void run(std::uint32_t count, std::initializer_list<compute::Argument> more) override
+  {
+    world_.run(kernel_, count, 64,
+               {{"reflected_xyz_all", world_.buffers.reflected_xyz_all},
+                {"cluster_cdf", world_.buffers.cluster_cdf},
+                {"film_scale", world_.on_device(world_.tables.direct_scale)}},
+               more);
+  }
+  double limit() const override { return world_.tables.direct_limit; }
+  double quanta_per_unit() const override { return world_.tables.direct_scale * world_.white; }
+
   compute::Kernel kernel_;
 };
 

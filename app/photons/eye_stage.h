@@ -21,7 +21,8 @@ class EyeStage : public Stage {
 public:
   EyeStage(DeviceWorld& world, const char* layer, const Settings& settings)
       : world_(world), layer_(layer), pixel_samples_(settings.pixel_samples),
-        film_(world.zeroed(std::string("film ") + layer, world.film_size())), pixels_(world, settings.pixel_samples)
+        film_(world.zeroed(std::string("film ") + layer, world.film_size())),
+        first_film_(world.zeroed(std::string("first picture ") + layer, world.first_film_size())), pixels_(world, settings.pixel_samples)
   {
   }
 
@@ -34,43 +35,69 @@ public:
   }
   void share_work(double factor) override { pixels_.sample_one_pass_in(static_cast<double>(pixels_.every()) / factor); }
 
+  /// Glass, which is sampled as long as the run goes on, may have no contribution with more quanta than any number of them can.
+  bool step(std::int64_t pass) override
+  {
+    const double most = pass < pixel_samples_ ? limit() : std::min(limit(), tracing::film_limit);
+    return pixels_.step(
+        pass, [&](std::uint32_t first, std::uint32_t count) { run(film_, world_.tables.camera, static_cast<std::uint32_t>(pass), first, count, most); });
+  }
+
+  void develop(std::int64_t, bool, job::Picture& picture) override
+  {
+    tracing::add_layer(layer_, {film_.read(), quanta_per_unit(), [&](std::size_t pixel) { return pixels_.samples(pixel); }}, picture);
+  }
+
+  /// One sample of each block in each half.
+  bool look() override
+  {
+    const shared::DeviceCamera camera = world_.first_camera();
+    for (std::uint32_t half = 0; half < 2; ++half)
+      run(first_film_, camera, half, 0, static_cast<std::uint32_t>(camera.width * camera.height), limit());
+    return true;
+  }
+
+  void develop_first(job::Picture& picture) override
+  {
+    tracing::add_layer(layer_, {first_film_.read(), quanta_per_unit(), [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
+  }
+
   void state(tracing::State& state) override
   {
     pixels_.state(state);
     state.buffer(film_);
+    state.buffer(first_film_);
   }
 
 protected:
-  /// A step of the kernel, which has `own` arguments beside those of every such kernel. limit: quanta that one contribution may have while
-  /// all pixels are sampled; glass, which is sampled as long as the run goes on, may have no more than any number of them can.
-  bool sample(std::int64_t pass, compute::Kernel& kernel, double limit, std::initializer_list<compute::Argument> own)
-  {
-    return pixels_.step(pass, [&](std::uint32_t first, std::uint32_t count) {
-      world_.run(kernel, count, 64, own,
-                 {{"film", film_},
-                  {"energy", world_.energy},
-                  {"camera", world_.tables.camera},
-                  {"seed", world_.seed},
-                  {"frame", static_cast<std::uint32_t>(pass)},
-                  {"pixels", world_.pixels.on_device},
-                  {"first", first},
-                  {"count", count},
-                  {"film_limit", static_cast<float>(pass < pixel_samples_ ? limit : std::min(limit, tracing::film_limit))}});
-    });
-  }
-
-  /// Stage::develop. quanta_per_unit: of the film, of what becomes 1 in the picture.
-  void add_to(job::Picture& picture, double quanta_per_unit) const
-  {
-    tracing::add_layer(layer_, {film_.read(), quanta_per_unit, [&](std::size_t pixel) { return pixels_.samples(pixel); }}, picture);
-  }
+  /// Runs the kernel with its own arguments and `more`.
+  virtual void run(std::uint32_t count, std::initializer_list<compute::Argument> more) = 0;
+  /// Quanta that one contribution may have while all pixels are sampled.
+  virtual double limit() const = 0;
+  /// Quanta of the film, of what becomes 1 in the picture.
+  virtual double quanta_per_unit() const = 0;
 
   DeviceWorld& world_;
 
 private:
+  void run(const compute::Buffer<std::int64_t>& film, const shared::DeviceCamera& camera, std::uint32_t frame, std::uint32_t first,
+           std::uint32_t count, double limit)
+  {
+    run(count, {{"film", film},
+                {"energy", world_.energy},
+                {"camera", camera},
+                {"seed", world_.seed},
+                {"frame", frame},
+                {"pixels", world_.pixels.on_device},
+                {"first", first},
+                {"count", count},
+                {"film_limit", static_cast<float>(limit)}});
+  }
+
   const char* layer_;
   std::int64_t pixel_samples_;
   compute::Buffer<std::int64_t> film_;
+  compute::Buffer<std::int64_t> first_film_; ///< of a pixel for each block of the run's first picture
   SampledPixels pixels_;
 };
 

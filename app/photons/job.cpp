@@ -2,6 +2,7 @@
 // Passes, in each of which every stage has its turn, step by step.
 #include "photons/job.h"
 #include "engine/engine.h"
+#include "photons/mixture.h"
 #include "photons/relight/layer_film.h"
 #include "photons/sampled_pixels.h"
 #include "photons/sight.h"
@@ -16,6 +17,8 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -43,12 +46,24 @@ PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene&
   return lists;
 }
 
+/// The pixels that a kernel of Smoothing may need, in the mean of all light: with more, caustics are smoothed in larger blocks.
+constexpr double most_needed = 24;
+
+/// A layer with a draw of its error, which is empty where it is not known.
+struct Noisy {
+  std::vector<float> rgb, draw;
+};
+
 /// A stage with the seconds it has worked.
 struct TimedStage {
   std::unique_ptr<Stage> stage;
-  bool caustics = false; ///< its layer is "caustic"
+  const char* layer = "";
   double seconds = 0;
+  bool caustics() const { return std::string_view(layer) == "caustic"; }
 };
+
+/// Position::look when there is no first picture to work out.
+constexpr std::size_t no_look = std::numeric_limits<std::size_t>::max();
 
 class PhotonJob final : public Run, public job::SpectrumSource {
 public:
@@ -59,16 +74,24 @@ public:
         preset_(preset), stop_seconds_(preset.stop.seconds)
   {
     const Settings& settings = plan.settings;
-    if (plan.runs(smoothing_part))
-      smoothing_.emplace(scene, bvh,
-                         settings.smoothing == Settings::Smoothing::on ? Smoothing::Spread::everywhere : Smoothing::Spread::where_it_helps);
+    world_.first_picture = {scene.camera.width, scene.camera.height, 1};
+    if (plan.first_picture && !settings.relight && settings.estimator != Settings::Estimator::sppm)
+      world_.first_picture.edge = edge_of_first_picture(scene.camera.width, scene.camera.height);
+    if (plan.runs(smoothing_part)) {
+      const std::shared_ptr<const Smoothing::View> view = Smoothing::view_of(scene, bvh);
+      for (Blocks blocks = world_.first_picture; blocks.edge > 0; blocks.edge /= 2)
+        smoothings_.push_back({blocks, Smoothing(view, blocks.across(), blocks.down(),
+                                                 settings.smoothing == Settings::Smoothing::on ? Smoothing::Spread::everywhere
+                                                                                               : Smoothing::Spread::where_it_helps)});
+    }
+    if (world_.first_picture.edge == 1) at_.look = no_look;
     shares_work_ = settings.effort == Settings::Effort::automatic && !settings.relight && plan.estimates_error;
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
     world_.emitters = compute::Buffer(context, "emitters", plan.tables.emitters);
     if (plan.runs(map_stage)) world_.map.emplace(context, world_.tables.photons_per_pass(), world_.defines);
     for (const RunPart* part : plan.parts)
-      if (part->make) stages_.push_back({part->make(world_, scene, settings), std::string_view(part->layer) == "caustic"});
+      if (part->make) stages_.push_back({part->make(world_, scene, settings), part->layer});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
     for (const TimedStage& s : stages_) s.stage->warm_up();
     world_.energy.fill_zero();
@@ -86,8 +109,15 @@ public:
 
   void step() override
   {
-    if (smooths()) smoothing_->look();
     const auto begin = Clock::now();
+    if (at_.look != no_look) {
+      TimedStage& now = stages_[at_.look];
+      if (now.stage->look() && ++at_.look == stages_.size()) at_.look = no_look;
+      const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      now.seconds += seconds;
+      at_.work_seconds += seconds;
+      return;
+    }
     if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 4 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
     TimedStage& now = stages_[at_.stage];
@@ -122,19 +152,15 @@ public:
   {
     auto picture = std::make_shared<job::Picture>(black());
     job::Snapshot snapshot;
+    bool has_caustics = false;
     for (std::size_t s = 0; s < stages_.size(); ++s) {
-      if (smooths() && stages_[s].caustics)
-        tracing::layer_of(*picture, "caustic"); // its place among the layers
-      else
-        stages_[s].stage->develop(at_.pass, s < at_.stage, *picture);
       snapshot.phases.emplace_back(stages_[s].stage->name(), stages_[s].seconds);
+      if (stages_[s].caustics() && std::exchange(has_caustics, true)) continue;
+      add(stages_[s].layer, stages_[s].caustics() ? caustics() : seen(s), *picture);
     }
-    if (smooths()) add_smooth_caustics(*picture);
-    if (smoothing_) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
-    for (const job::Layer& layer : picture->layers)
-      for (std::size_t i = 0; i < layer.rgb.size(); ++i) picture->rgb[i] += layer.rgb[i];
+    if (!smoothings_.empty()) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
     snapshot.picture = std::move(picture);
-    snapshot.whole = at_.pass > 0;
+    snapshot.whole = at_.pass > 0 || (world_.first_picture.edge > 1 && at_.look == no_look);
     snapshot.progress = progress();
     const double rounds = photon_rounds() - at_.energy_from;
     Energy energy{balance_of(outcome_watts(world_.energy.read(), world_.tables.energy_scale, rounds)), {}};
@@ -157,7 +183,7 @@ public:
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (!stages_[s].stage->add_spectrum(at_.pass, s < at_.stage, *spectrum))
         spectrum->notes.push_back(fmt::format("Without the layer \"{}\", of which no spectrum is kept.", stages_[s].stage->name()));
-    if (smoothing_) spectrum->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
+    if (!smoothings_.empty()) spectrum->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
     return spectrum;
   }
 
@@ -187,10 +213,11 @@ public:
   void set_estimate(std::vector<float> caustics) override { estimate_ = std::move(caustics); }
   void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) override
   {
-    if (smoothing_) smoothing_->spread(rgb, error_draw, {estimate, direct_noise});
+    if (!smoothings_.empty()) smoothings_.back().smoothing.spread(rgb, error_draw, {estimate, direct_noise});
   }
   void set_white(double white) override { world_.white = white; }
   std::int64_t rounds() const override { return static_cast<std::int64_t>(photon_rounds()); }
+  std::int64_t rounds_of_pass() const override { return world_.tables.rounds; }
 
   void state(tracing::State& state) override
   {
@@ -205,6 +232,7 @@ public:
 private:
   /// Where a run is.
   struct Position {
+    std::size_t look = 0;      ///< whose turn it is in the first picture, or no_look
     std::int64_t pass = 0;     ///< passes completed
     std::size_t stage = 0;     ///< whose turn it is
     bool part_of_pass = false; ///< whether it has begun
@@ -237,7 +265,7 @@ private:
     };
     double of_photons = 0;
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (const auto work = static_cast<double>(stages_[s].stage->photons_per_pass()); stages_[s].caustics && work > 0)
+      if (const auto work = static_cast<double>(stages_[s].stage->photons_per_pass()); stages_[s].caustics() && work > 0)
         of_photons = noise_over_work(s, work, false);
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (const double work = stages_[s].stage->glass_work(); work > 0 && of_photons > 0)
@@ -255,35 +283,115 @@ private:
     return picture;
   }
 
-  /// With both halves whole: what a few photons of one tell of the noise makes blotches.
-  bool smooths() const
-  {
-    for (std::size_t s = 0; smoothing_ && s < stages_.size(); ++s)
-      if (stages_[s].caustics && has_halves(s)) return true;
-    return false;
-  }
-
   bool has_halves(std::size_t stage) const { return stages_[stage].stage->has_halves(at_.pass, stage < at_.stage); }
 
-  /// Adds the layer "caustic", spread, and its error.
-  void add_smooth_caustics(job::Picture& picture)
+  /// Of a first picture: as a stage has seen it, smoothed, of [pixel][3].
+  Noisy first_seen(std::size_t stage)
   {
-    job::Picture caustics = black();
-    bool lacks_maps = false; // as they come after all rounds of a pass; until then glass shows what is known otherwise
+    job::Picture picture = black_blocks(world_.first_picture);
+    stages_[stage].stage->develop_first(picture);
+    if (picture.layers.empty()) return {};
+    Noisy blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+    if (!smoothings_.empty()) timed([&] { smoothings_[0].smoothing.spread(blocks.rgb, blocks.draw); });
+    return between_blocks(world_.first_picture, blocks);
+  }
+
+  /// The layer of a stage of no caustics.
+  Noisy seen(std::size_t stage)
+  {
+    Stage& of = *stages_[stage].stage;
+    const bool has_first = world_.first_picture.edge > 1 && at_.look == no_look, whole = at_.pass > 0 || stage < at_.stage;
+    Noisy first = has_first && !has_halves(stage) ? first_seen(stage) : Noisy();
+    if (!first.rgb.empty() && !whole) return first;
+    job::Picture picture = black();
+    of.develop(at_.pass, stage < at_.stage, picture);
+    Noisy layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+    if (!first.rgb.empty()) { // a single sample of each pixel: all there is to see of a wall, and little of glass
+      for (std::size_t i = 0; i < layer.rgb.size(); ++i)
+        if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = first.rgb[i];
+      layer.draw = std::move(first.draw);
+    } else if (!smoothings_.empty() && has_halves(stage) && has_first) {
+      timed([&] { smoothings_.back().smoothing.spread(layer.rgb, layer.draw); });
+    }
+    return layer;
+  }
+
+  /// The layer of all stages of caustics.
+  Noisy caustics()
+  {
+    const auto is_shown = [&](std::size_t s) { return stages_[s].caustics() && (smoothings_.empty() || has_halves(s)); };
+    job::Picture picture = black();
+    tracing::layer_of(picture, "caustic");
+    Noisy first; // of photon maps, which come after all photons of a pass; until then glass shows what is known otherwise
+    bool lacks_maps = false;
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (stages_[s].caustics && has_halves(s))
-        stages_[s].stage->develop(at_.pass, s < at_.stage, caustics);
-      else
-        lacks_maps = lacks_maps || stages_[s].caustics;
-    std::vector<float>& rgb = tracing::layer_of(caustics, "caustic").rgb;
+      if (is_shown(s)) {
+        stages_[s].stage->develop(at_.pass, s < at_.stage, picture);
+      } else if (stages_[s].caustics()) {
+        lacks_maps = true;
+        if (world_.first_picture.edge > 1 && at_.look == no_look) first = first_seen(s);
+      }
+    Noisy layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
     for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
-      if (world_.pixels.may_show_glass[i / 3]) rgb[i] = estimate_[i], caustics.error_draw[i] = 0;
+      if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
+    if (!smoothings_.empty() && !layer.draw.empty()) timed([&] { smooth(layer, is_shown); });
+    if (!first.rgb.empty()) std::ranges::transform(layer.rgb, first.rgb, layer.rgb.begin(), std::plus());
+    if (!first.draw.empty() && !layer.draw.empty()) std::ranges::transform(layer.draw, first.draw, layer.draw.begin(), std::plus());
+    return layer;
+  }
+
+  /// Spreads caustics in blocks so large that their noise needs no wide kernels: that is faster, and reaches farther.
+  template <class IsShown>
+  void smooth(Noisy& caustics, const IsShown& is_shown)
+  {
+    const int width = world_.tables.camera.width, height = world_.tables.camera.height;
+    const double needed = smoothings_.size() > 1 ? Smoothing::pixels_needed(caustics.rgb, caustics.draw, width, height) : 1;
+    auto by = smoothings_.end() - 1;
+    while (by != smoothings_.begin() && needed / by->blocks.edge / by->blocks.edge > most_needed) --by;
+    if (by->blocks.edge == 1) return by->smoothing.spread(caustics.rgb, caustics.draw, {estimate_, caustic_noise});
+    job::Picture picture = black_blocks(by->blocks);
+    for (std::size_t s = 0; s < stages_.size(); ++s)
+      if (is_shown(s)) stages_[s].stage->develop_blocks(at_.pass, s < at_.stage, by->blocks, picture);
+    Noisy blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+    by->smoothing.spread(blocks.rgb, blocks.draw);
+    Noisy spread = between_blocks(by->blocks, blocks);
+    std::vector<double> light(spread.rgb.size() / 3);
+    for (std::size_t i = 0; i < spread.rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(caustics.rgb[i]), 0.0) / 3;
+    const Noisy plain = caustics;
+    mix(plain.rgb, plain.draw, {plain.rgb, plain.draw}, light, width, height, spread.rgb, spread.draw);
+    caustics = std::move(spread);
+  }
+
+  static Noisy between_blocks(const Blocks& blocks, const Noisy& layer)
+  {
+    return {photons::between_blocks(blocks, layer.rgb), layer.draw.empty() ? layer.draw : photons::between_blocks(blocks, layer.draw)};
+  }
+
+  /// As black(), with a pixel for each block.
+  job::Picture black_blocks(const Blocks& blocks) const
+  {
+    job::Picture picture;
+    picture.width = blocks.across();
+    picture.height = blocks.down();
+    picture.rgb.assign(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 0.0f);
+    if (world_.halves == 2) picture.error_draw = picture.rgb;
+    return picture;
+  }
+
+  static void add(const char* name, Noisy layer, job::Picture& picture)
+  {
+    std::ranges::transform(picture.rgb, layer.rgb, picture.rgb.begin(), std::plus());
+    if (layer.draw.empty()) picture.error_draw.clear();
+    if (!picture.error_draw.empty()) std::ranges::transform(picture.error_draw, layer.draw, picture.error_draw.begin(), std::plus());
+    picture.layers.push_back({name, std::move(layer.rgb)});
+  }
+
+  template <class Work>
+  void timed(const Work& work)
+  {
     const auto begin = Clock::now();
-    smoothing_->spread(rgb, caustics.error_draw, {estimate_, caustic_noise});
+    work();
     smoothing_seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
-    tracing::layer_of(picture, "caustic").rgb = std::move(rgb);
-    if (caustics.error_draw.empty()) picture.error_draw.clear();
-    for (std::size_t i = 0; i < picture.error_draw.size(); ++i) picture.error_draw[i] += caustics.error_draw[i];
   }
 
   /// How much of the pass in hand a stage has done.
@@ -309,7 +417,11 @@ private:
   DeviceWorld world_;        ///< the stages use it
   preset::Preset preset_;    ///< with the lights as they are now
   bool shares_work_ = false; ///< whether time is dealt out by what it gains
-  std::optional<Smoothing> smoothing_;
+  struct SmoothingOfBlocks {
+    Blocks blocks;
+    Smoothing smoothing;
+  };
+  std::vector<SmoothingOfBlocks> smoothings_; ///< from the first picture's blocks to single pixels; or none
   std::vector<float> estimate_;  ///< Run::set_estimate
   double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's
   std::optional<double> stop_seconds_;

@@ -24,6 +24,7 @@ struct RunPlan : plan::Plan {
   Settings settings;
   RunTables tables;
   std::vector<const RunPart*> parts; ///< that run; stages in the order of their turns in a pass
+  bool first_picture = true;         ///< whether a large picture is worked out coarsely first
   bool runs(const RunPart& part) const;
 };
 
@@ -41,8 +42,9 @@ public:
   virtual void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) = 0;
   /// Of pictures from now on; an estimate is over the same.
   virtual void set_white(double white) = 0;
-  /// Of photons that are splatted, complete ones: Settings::rounds a pass.
+  /// Of photons that are splatted, complete ones, and how many a pass has.
   virtual std::int64_t rounds() const = 0;
+  virtual std::int64_t rounds_of_pass() const = 0;
   /// All that save() and load() are about.
   virtual void state(tracing::State& state) = 0;
 };

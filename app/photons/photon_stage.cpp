@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,6 +17,9 @@ namespace {
 /// By how much photons that are dealt by variance have to lower it: so much longer they may take, for they meet more glass and are
 /// measured.
 constexpr double least_gain = 1.5;
+
+/// Before which round photons are first dealt by what was measured: a pass's half, as fewer photons tell too little.
+std::int64_t first_deal(unsigned rounds) { return std::max<std::int64_t>(rounds / 2, 2); }
 
 class PhotonStage final : public Stage {
 public:
@@ -41,7 +45,7 @@ public:
   {
     const RunTables& t = world_.tables;
     const std::int64_t round = pass * t.rounds + round_;
-    if (by_variance_ && slices_.at_start() && deal_.is_due(round)) deal(round);
+    if (by_variance_ && slices_.at_start() && round >= first_deal(t.rounds) && deal_.is_due(round)) deal(round);
     const bool complete = slices_.step(t.photons_per_round, [&](const tracing::Slice& slice) {
       world_.send(kernel_, slice, round,
                   {{"targets", world_.buffers.targets},
@@ -71,10 +75,19 @@ public:
 
   bool has_halves(std::int64_t passes, bool done) const override { return rounds(passes, done) >= 2; }
 
+  bool look() override
+  {
+    if (round_ < world_.tables.first_rounds()) step(0);
+    return round_ >= world_.tables.first_rounds();
+  }
+
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](std::size_t) { return tracing::halves_of(rounds(passes, done), slices_.part()); };
-    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic", film(passes, done), picture);
+  }
+  void develop_blocks(std::int64_t passes, bool done, const Blocks& blocks, job::Picture& picture) override
+  {
+    tracing::add_layer("caustic", film_of_blocks(blocks, film(passes, done)), picture);
   }
 
   void state(tracing::State& state) override
@@ -93,6 +106,12 @@ public:
   }
 
 private:
+  tracing::Film film(std::int64_t passes, bool done) const
+  {
+    const std::array<double, 2> samples = tracing::halves_of(rounds(passes, done), slices_.part());
+    return {film_.read(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }};
+  }
+
   /// That are complete.
   std::int64_t rounds(std::int64_t passes, bool done) const
   {
@@ -114,7 +133,7 @@ private:
     for (const shared::DeviceEmitter& e : deal_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
     guide_.learn(guide_moments_.read(), photons, static_cast<double>(round - deal_.first_pass()));
     deal_.deal(round, moments_.read(), world_.halves);
-    if (!insists_ && round > 2 && deal_.gain() < least_gain) { // round 2 is the first that is dealt by what was measured
+    if (!insists_ && round > first_deal(world_.tables.rounds) && deal_.gain() < least_gain) {
       by_variance_ = false;
       make_kernel();
       deal_.deal_as_first(round, world_.halves);

@@ -21,7 +21,7 @@ class SampledPixels {
 public:
   /// enough: samples of a pixel without glass, one a pass; preset::max_passes: all pixels in every pass; 0: those of glass alone.
   SampledPixels(const DeviceWorld& world, std::int64_t enough)
-      : lists_(world.pixels), enough_(enough), steps_(size(0), std::int64_t{16} * world.tables.camera.width)
+      : lists_(world.pixels), enough_(enough), steps_(size(0), 1024)
   {
   }
 

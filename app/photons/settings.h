@@ -38,7 +38,6 @@ struct Settings {
   Smoothing smoothing = Smoothing::automatic;
   bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
   int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
-  int rounds = 1;                          ///< of a pass: photons that are splatted come in so many fair samples. No preset says it
   int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
   int pixel_samples = 64;                  ///< samples a pixel of the direct layer, one a pass until there are so many
   int max_surfaces = 32;                   ///< interfaces a path may meet before it is counted as lost

@@ -215,9 +215,8 @@ private:
 
 } // namespace
 
-Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, int column, int row)
+Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row)
 {
-  const scene::Camera& camera = scene.camera;
   const double x = 2 * (column + 0.5) / camera.width - 1, y = 1 - 2 * (row + 0.5) / camera.height;
   const glm::dvec3 way =
       glm::dvec3(camera.forward) + x * camera.tan_x * glm::dvec3(camera.right) + y * camera.tan_y * glm::dvec3(camera.up);

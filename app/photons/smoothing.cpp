@@ -325,23 +325,30 @@ void to_means(const Seeing& at, std::span<const Kernel> kernels, std::span<const
 
 } // namespace
 
-Smoothing::Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, Spread spread)
-    : width_(scene.camera.width), height_(scene.camera.height), spread_(spread)
+std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   scene::Scene seen = scene;
   seen.environment.reset(); // the largest part of a scene, and no look needs it
-  view_ = std::make_unique<const View>(View{std::move(seen), bvh});
+  return std::make_shared<const View>(View{std::move(seen), bvh});
+}
+
+Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread)
+    : width_(width), height_(height), spread_(spread), view_(std::move(view))
+{
 }
 
 void Smoothing::look()
 {
   if (!view_) return;
-  const std::unique_ptr<const View> view = std::move(view_);
+  const std::shared_ptr<const View> view = std::move(view_);
+  scene::Camera camera = view->scene.camera;
+  camera.width = width_;
+  camera.height = height_;
   std::vector<PixelSight> seen(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   std::vector<Sight> sights(seen.size());
   for_ranges(sights.size(), 1 << 10, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      sights[i] = look_through_pixel(view->scene, view->bvh, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
+      sights[i] = look_through_pixel(view->scene, view->bvh, camera, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
   const std::vector<bool> pulled = are_near_pulled(sights, width_, height_);
   for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = {pulled[i] ? sights[i].first : sights[i].last, sights[i].first.object};
@@ -360,6 +367,17 @@ void Smoothing::look()
         if (j == i || are_level(seen[i], seen[j])) level_[i][number / 64] |= std::uint64_t{1} << (number % 64);
       }
   });
+}
+
+double Smoothing::pixels_needed(std::span<const float> rgb, std::span<const float> error_draw, int width, int height)
+{
+  const std::vector<double> light = light_of(rgb), portion = portions(light, error_draw, width, height);
+  double needed = 0, all = 0;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    needed += std::max(portion[i] / (noise * noise), light[i]);
+    all += light[i];
+  }
+  return all > 0 ? needed / all : 1;
 }
 
 std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)

@@ -31,13 +31,23 @@ public:
     double noise;               ///< what is allowed of noise in what is known with what it lacks, as Smoothing::noise
   };
 
-  /// Looks once through the middle of every pixel, on every core. Light is spread within one nearly flat part of the diffuse object that
+  /// What is looked at: copies of a scene, but for its environment, and of its tree.
+  struct View {
+    scene::Scene scene;
+    scene::Bvh bvh;
+  };
+  static std::shared_ptr<const View> view_of(const scene::Scene& scene, const scene::Bvh& bvh);
+
+  /// Looks once through the middle of every pixel of a picture of width x height, on every core. Light is spread within one nearly flat part of the diffuse object that
   /// the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where glass or a mirror shows none, or
   /// is curved so that neighbours show places far apart, it is spread within one nearly flat part of the glass or mirror.
-  /// The looks wait until the first call of look() or spread(), for they would hold up a run's first picture: until then it keeps a copy
-  /// of what is looked at.
-  Smoothing(const scene::Scene& scene, const scene::Bvh& bvh, Spread spread);
+  /// The looks wait until the first call of look() or spread(), for they would hold up a run's first picture: until then it keeps what is
+  /// looked at.
+  Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
   void look();
+
+  /// How many pixels a kernel needs, in the mean of all light; 1 where nothing is noisy. The arguments are spread()'s.
+  static double pixels_needed(std::span<const float> rgb, std::span<const float> error_draw, int width, int height);
 
   /// What it takes at most, in bytes.
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);
@@ -53,14 +63,9 @@ public:
   using Level = std::array<std::uint64_t, 2>;
 
 private:
-  /// What is looked at.
-  struct View {
-    scene::Scene scene; ///< but for its environment
-    scene::Bvh bvh;
-  };
   int width_, height_;
   Spread spread_;
-  std::unique_ptr<const View> view_; ///< null: all looks are taken
+  std::shared_ptr<const View> view_; ///< null: all looks are taken
   std::vector<Level> level_;         ///< [pixel]
 };
 

@@ -15,7 +15,7 @@ class StepSize {
 public:
   explicit StepSize(double start) : amount_(start) {}
   double amount() const { return amount_; }
-  /// Calls work(), which does `amount` of it, and learns from the time it took. It learns slowly, because the first step of a kernel also
+  /// Calls work(), which does `amount` of it, and learns from the time it took: a little at a time, because the first step of a kernel also
   /// compiles it, and the rows of a picture differ.
   template <class Work>
   void timed(double amount, const Work& work)
@@ -24,7 +24,7 @@ public:
     const auto begin = Clock::now();
     work();
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    amount_ = std::clamp(amount * step_seconds / std::max(seconds, 1e-6), 0.25 * amount_, 1.5 * amount_);
+    amount_ = std::clamp(amount * step_seconds / std::max(seconds, 1e-6), 0.25 * amount_, 2 * amount_);
   }
 
 private:
@@ -104,7 +104,7 @@ private:
     std::uint32_t slice = 0, slices = 1;
   };
   Position at_;
-  StepSize photons_a_step_{8192};
+  StepSize photons_a_step_{1024};
 };
 
 } // namespace nephroid::tracing

@@ -89,7 +89,7 @@ TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
   constexpr std::size_t table = 1, lower = 2, window = 3;
   std::vector<double> before(scene.objects.size()), after(scene.objects.size());
   for (std::size_t i = 0; i < 64 * 64; ++i) {
-    const photons::Sight sight = photons::look_through_pixel(scene, bvh, static_cast<int>(i) % 64, static_cast<int>(i) / 64);
+    const photons::Sight sight = photons::look_through_pixel(scene, bvh, scene.camera, static_cast<int>(i) % 64, static_cast<int>(i) / 64);
     ASSERT_EQ(sight.first.object, static_cast<int>(window));
     const auto object = static_cast<std::size_t>(sight.last.object);
     ASSERT_TRUE(object == table || object == lower);

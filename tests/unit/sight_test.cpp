@@ -252,7 +252,7 @@ struct Seen {
 Seen see(const preset::Preset& p)
 {
   const scene::Scene scene = scene::load_scene(p);
-  const photons::Sight sight = photons::look_through_pixel(scene, scene::build_bvh(scene.geometry), 0, 0);
+  const photons::Sight sight = photons::look_through_pixel(scene, scene::build_bvh(scene.geometry), scene.camera, 0, 0);
   const auto name = [&](int object) { return object < 0 ? "" : scene.objects[static_cast<std::size_t>(object)].name; };
   return {sight, scene.origin + glm::dvec3(sight.last.position), name(sight.first.object), name(sight.last.object)};
 }

@@ -64,9 +64,14 @@ Moments moments(const std::vector<float>& rgb, int from, int to, int margin, std
   return {s / n, s2 / n - s * s / (n * n)};
 }
 
+photons::Smoothing smoothing_of(const scene::Scene& scene, const scene::Bvh& bvh, photons::Smoothing::Spread spread)
+{
+  return {photons::Smoothing::view_of(scene, bvh), scene.camera.width, scene.camera.height, spread};
+}
+
 class Smoothing : public testing::Test, protected FloorAndWall {
 protected:
-  photons::Smoothing smoothing{scene, bvh, photons::Smoothing::Spread::everywhere};
+  photons::Smoothing smoothing = smoothing_of(scene, bvh, photons::Smoothing::Spread::everywhere);
 };
 
 TEST_F(Smoothing, keeps_power_and_draws_a_quarter_of_the_noise_and_less)
@@ -162,7 +167,7 @@ scene::Scene two_walls(const preset::Object& between, double wall_height)
 /// Where photons are on the right alone they stay there, and are spread.
 void expect_no_light_on_the_left(const scene::Scene& scene)
 {
-  photons::Smoothing smoothing(scene, scene::build_bvh(scene.geometry), photons::Smoothing::Spread::everywhere);
+  photons::Smoothing smoothing = smoothing_of(scene, scene::build_bvh(scene.geometry), photons::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int x, int) { return x >= size / 2 ? 1.0 : 0.0; }, 9);
   const std::vector<float> before = photons.rgb;
   smoothing.spread(photons.rgb, photons.error_draw);
@@ -187,7 +192,7 @@ TEST_F(Smoothing, spreads_within_curved_glass)
 {
   const scene::Scene glass =
       two_walls(shape_object("ball", preset::Shape::Type::sphere, "glass", {.scale = {8, 8, 8}, .translate = {0, -4, 0}}), -20);
-  photons::Smoothing within(glass, scene::build_bvh(glass.geometry), photons::Smoothing::Spread::everywhere);
+  photons::Smoothing within = smoothing_of(glass, scene::build_bvh(glass.geometry), photons::Smoothing::Spread::everywhere);
   Photons photons = scatter([](int, int) { return 1.0; }, 11);
   const double variance = moments(photons.rgb, 16, size - 16, 16).variance, power = sum(photons.rgb);
   within.spread(photons.rgb, photons.error_draw);
@@ -223,8 +228,8 @@ struct Errors {
 Errors errors_of(const Density& density)
 {
   const FloorAndWall room;
-  photons::Smoothing everywhere(room.scene, room.bvh, photons::Smoothing::Spread::everywhere),
-      by_gain(room.scene, room.bvh, photons::Smoothing::Spread::where_it_helps);
+  photons::Smoothing everywhere = smoothing_of(room.scene, room.bvh, photons::Smoothing::Spread::everywhere),
+                     by_gain = smoothing_of(room.scene, room.bvh, photons::Smoothing::Spread::where_it_helps);
   const auto add_error = [&](const std::vector<float>& rgb, double& sum) {
     for (int y = size / 2 + 8; y < size - 8; ++y)
       for (int x = 8; x < size - 8; ++x) sum += std::pow(rgb[3 * static_cast<std::size_t>(y * size + x)] - density(x, y), 2);
@@ -279,7 +284,7 @@ TEST_F(Smoothing, leaves_a_picture_of_one_pixel_alone)
   p.scene.camera.resolution = {1, 1};
   const scene::Scene empty = scene::load_scene(p);
   std::vector<float> rgb{3, -1, 2}, draw{1, 1, 1};
-  photons::Smoothing(empty, scene::build_bvh(empty.geometry), photons::Smoothing::Spread::everywhere).spread(rgb, draw);
+  smoothing_of(empty, scene::build_bvh(empty.geometry), photons::Smoothing::Spread::everywhere).spread(rgb, draw);
   EXPECT_EQ(rgb, (std::vector<float>{3, -1, 2}));
   EXPECT_EQ(draw, (std::vector<float>{1, 1, 1}));
 }
@@ -302,7 +307,7 @@ TEST_F(Smoothing, spreads_coloured_photons_as_far_as_their_noise_asks)
 // Pixels of 100 photons are not spread for themselves. What is known is as wrong as they are noisy, and only both together tell how much.
 TEST_F(Smoothing, finds_what_is_lacking_in_what_is_known)
 {
-  photons::Smoothing mixing{scene, bvh, photons::Smoothing::Spread::where_it_helps};
+  photons::Smoothing mixing = smoothing_of(scene, bvh, photons::Smoothing::Spread::where_it_helps);
   constexpr double density = 100;
   Photons photons = scatter([](int, int) { return density; }, 5);
   const double power = sum(photons.rgb), noise = moments(photons.rgb, 0, size, 0).variance;

@@ -25,15 +25,15 @@ public:
   struct Paths {
     std::uint32_t count = 1, before = 0, before_in_half = 0;
   };
-  /// The paths of each of the next pixels, one after the other: gather(points, first, count) queues kernels for each; first: in
+  /// The paths of each of the next pixels, one after the other: gather(first, count) queues kernels for each; first: in
   /// DeviceWorld::pixels. cluster: see view.cl. True when all pixels are done.
   template <class Gather>
   bool step(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather)
   {
     const auto work = [&](std::uint32_t first, std::uint32_t count) {
       for (std::uint32_t path = 0; path < paths.count; ++path) {
-        look({seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster, first, count});
-        gather(points_, first, count);
+        look(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster, first, count);
+        gather(first, count);
       }
       world_.context.finish();
     };
@@ -41,40 +41,34 @@ public:
   }
 
   /// Stage::warm_up for its kernel.
-  void warm_up() { look({world_.seed, 0, {}, 0, 0, 0}); }
+  void warm_up() { look(world_.tables.camera, world_.seed, 0, {}, 0, 0, 0); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
   const SampledPixels& pixels() const { return pixels_; }
 
   void state(tracing::State& state) { pixels_.state(state); }
 
-private:
-  /// Which paths a launch of view.cl has.
-  struct Look {
-    shared::uint2 seed{};
-    std::uint32_t pass = 0;
-    Paths paths;
-    int cluster = 0;
-    std::uint32_t first = 0, count = 0;
-  };
-  void look(const Look& at)
+  /// The next path of each of `count` pixels of the camera's, into points().
+  void look(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster,
+            std::uint32_t first, std::uint32_t count)
   {
-    world_.run(view_, std::max(at.count, 1u), 64,
+    world_.run(view_, std::max(count, 1u), 64,
                {{"cluster_cdf", world_.buffers.cluster_cdf},
                 {"points", points_},
-                {"camera", world_.tables.camera},
-                {"seed", at.seed},
-                {"pass", at.pass},
-                {"sample", at.paths.before},
-                {"place", at.paths.before_in_half},
-                {"path_count", at.paths.count},
-                {"cluster", at.cluster},
+                {"camera", camera},
+                {"seed", seed},
+                {"pass", pass},
+                {"sample", paths.before},
+                {"place", paths.before_in_half},
+                {"path_count", paths.count},
+                {"cluster", cluster},
                 {"object_count", static_cast<int>(world_.tables.objects.size())},
                 {"pixels", world_.pixels.on_device},
-                {"first", at.first},
-                {"count", at.count}});
+                {"first", first},
+                {"count", count}});
   }
 
+private:
   /// About as many as make work for a step.
   static std::size_t point_count(const shared::DeviceCamera& camera)
   {

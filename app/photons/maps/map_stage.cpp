@@ -23,6 +23,7 @@ public:
   MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), map_(world.map.value()), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
         paths_(world.tables.eye_paths), eye_(world, 0), film_(world.zeroed("film photon maps", world.film_size())),
+        first_film_(world.zeroed("first picture photon maps", world.first_film_size())),
         gather_(compute::Program(world.context, "photons/gather.cl", world.defines).kernel("gather_to_film"))
   {
   }
@@ -32,28 +33,45 @@ public:
   double glass_work() const override { return paths_ * work_of_a_path * static_cast<double>(eye_.pixels().glass()); }
   void share_work(double factor) override { paths_ = static_cast<std::uint32_t>(std::clamp(std::round(paths_ * factor), 1.0, 64.0)); }
 
+  /// Over no photon and no pixel.
+  void warm_up() override
+  {
+    map_.build(first_radius_, 0);
+    eye_.warm_up();
+    gather(film_, world_.pixels.count, 0, first_radius_, world_.tables.rounds, 0, 0);
+  }
+
+  /// In the photons of the first rounds, within a radius that grows with the blocks.
+  bool look() override
+  {
+    const unsigned rounds = world_.tables.first_rounds();
+    if (rounds == 0) return true;
+    const shared::DeviceCamera camera = world_.first_camera();
+    const auto count = static_cast<std::uint32_t>(camera.width * camera.height);
+    const double radius = first_radius_ * world_.first_picture.edge;
+    map_.build(radius, rounds * world_.tables.photons_per_round);
+    for (std::uint32_t path = 0; path < 2 * first_paths; ++path) {
+      eye_.look(camera, world_.seed, 0, {first_paths, path, path}, -1, 0, count);
+      gather(first_film_, count, path % 2, radius, rounds, 0, count);
+    }
+    return true;
+  }
+
+  void develop_first(job::Picture& picture) override
+  {
+    const double scale = world_.tables.caustic_scale * world_.white;
+    tracing::add_layer("caustic", {first_film_.read(), scale, [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
+  }
+
   bool step(std::int64_t pass) override
   {
     const double radius = first_radius_ * map_radius_factor(pass, alpha_);
     if (sorted_pass_ != pass) map_.build(radius, world_.tables.photons_per_pass());
     sorted_pass_ = pass;
-    const RunTables& t = world_.tables;
-    const double quanta = photon_scale(t.photons_per_round, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
-    const auto film_per_quantum = static_cast<float>(t.caustic_scale / quanta / t.rounds / std::pow(std::numbers::pi * metres, 2));
     const auto number = static_cast<std::uint32_t>(pass);
     const EyePaths::Paths paths{paths_, before_[0] + before_[1], before_[number % 2]};
-    const bool complete = eye_.step(world_.seed, number, paths, -1, [&](const auto& points, std::uint32_t first, std::uint32_t count) {
-      gather_.run(count, 64, map_.arguments(),
-                  {{"points", points},
-                   {"film", film_},
-                   {"energy", world_.energy},
-                   {"pixels", world_.pixels.on_device},
-                   {"picture", world_.pixels.count},
-                   {"pass", number},
-                   {"first", first},
-                   {"count", count},
-                   {"radius", static_cast<float>(radius)},
-                   {"film_per_quantum", film_per_quantum}});
+    const bool complete = eye_.step(world_.seed, number, paths, -1, [&](std::uint32_t first, std::uint32_t count) {
+      gather(film_, world_.pixels.count, number, radius, world_.tables.rounds, first, count);
     });
     if (complete) before_[number % 2] += paths_;
     return complete;
@@ -61,8 +79,11 @@ public:
 
   void develop(std::int64_t, bool, job::Picture& picture) override
   {
-    const auto samples = [&](std::size_t pixel) { return eye_.pixels().samples(pixel); };
-    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic", film(), picture);
+  }
+  void develop_blocks(std::int64_t, bool, const Blocks& blocks, job::Picture& picture) override
+  {
+    tracing::add_layer("caustic", film_of_blocks(blocks, film()), picture);
   }
 
   void state(tracing::State& state) override
@@ -71,18 +92,46 @@ public:
     state.value(paths_);
     state.value(before_);
     state.buffer(film_);
+    state.buffer(first_film_);
     state.buffer(map_.stored());
     if (state.is_read()) sorted_pass_ = -1;
   }
 
 private:
+  /// Of a pixel in each half of the first picture.
+  static constexpr std::uint32_t first_paths = 4;
+
+  tracing::Film film() const
+  {
+    return {film_.read(), world_.tables.caustic_scale * world_.white, [&](std::size_t pixel) { return eye_.pixels().samples(pixel); }};
+  }
+
+  /// pixels: of the film. rounds: of photons that are in the map.
+  void gather(const compute::Buffer<std::int64_t>& film, std::uint32_t pixels, std::uint32_t pass, double radius, unsigned rounds,
+              std::uint32_t first, std::uint32_t count)
+  {
+    const RunTables& t = world_.tables;
+    const double quanta = photon_scale(t.photons_per_round, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
+    gather_.run(std::max(count, 1u), 64, map_.arguments(),
+                {{"points", eye_.points()},
+                 {"film", film},
+                 {"energy", world_.energy},
+                 {"pixels", world_.pixels.on_device},
+                 {"picture", pixels},
+                 {"pass", pass},
+                 {"first", first},
+                 {"count", count},
+                 {"radius", static_cast<float>(radius)},
+                 {"film_per_quantum", static_cast<float>(t.caustic_scale / quanta / rounds / std::pow(std::numbers::pi * metres, 2))}});
+  }
+
   DeviceWorld& world_;
   PhotonMap& map_;
   double first_radius_, alpha_;
   std::uint32_t paths_;                   ///< of a pixel in a pass
   std::array<std::uint32_t, 2> before_{}; ///< of a pixel, in even and in odd passes
   EyePaths eye_;
-  compute::Buffer<std::int64_t> film_;
+  compute::Buffer<std::int64_t> film_, first_film_;
   compute::Kernel gather_;
   std::int64_t sorted_pass_ = -1; ///< whose photons the grid has
 };

@@ -269,8 +269,8 @@ private:
     if (!sorted_) map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
     sorted_ = true;
     return eye_.step(seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), {1, static_cast<std::uint32_t>(iteration), 0},
-                     at_.cluster, [&](const auto& points, std::uint32_t first_pixel, std::uint32_t count) {
-                       gather_photons(points, first_pixel, count, at_.cluster, count);
+                     at_.cluster, [&](std::uint32_t first_pixel, std::uint32_t count) {
+                       gather_photons(eye_.points(), first_pixel, count, at_.cluster, count);
                      });
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the stages of a job share: the scene on its device, the run's tables, the energy counters.
 #pragma once
+#include "photons/coarse.h"
 #include "photons/maps/photon_map.h"
 #include "photons/tables/run_tables.h"
 #include "tracing/step_size.h"
@@ -31,6 +32,7 @@ struct DeviceWorld : tracing::World {
   compute::Buffer<std::int64_t> energy{}; ///< [OUTCOME_COUNT] quanta
   compute::Buffer<shared::DeviceEmitter> emitters{};
   PixelLists pixels{};
+  Blocks first_picture{}; ///< those that the run's first picture has
   std::optional<PhotonMap> map{};           ///< that photons which are splatted go to as well, where a stage gathers them
   std::shared_ptr<Relighting> relighting{}; ///< where layers are kept for another light
 
@@ -38,6 +40,18 @@ struct DeviceWorld : tracing::World {
   std::size_t film_size() const
   {
     return std::size_t{3} * halves * static_cast<std::size_t>(tables.camera.width) * static_cast<std::size_t>(tables.camera.height);
+  }
+  /// The run's camera with a pixel for each block of its first picture.
+  shared::DeviceCamera first_camera() const
+  {
+    shared::DeviceCamera camera = tables.camera;
+    camera.width = first_picture.across();
+    camera.height = first_picture.down();
+    return camera;
+  }
+  std::size_t first_film_size() const
+  {
+    return std::size_t{3} * halves * static_cast<std::size_t>(first_picture.across()) * static_cast<std::size_t>(first_picture.down());
   }
   /// Runs a kernel that sends a slice of the photons of a pass.
   void send(compute::Kernel& kernel, const tracing::Slice& slice, std::int64_t pass, std::initializer_list<compute::Argument> own)

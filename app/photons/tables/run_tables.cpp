@@ -7,6 +7,7 @@
 #include "photons/maps/photon_map.h"
 #include "tracing/scales.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,14 @@ namespace nephroid::photons {
 namespace {
 
 using std::numbers::pi;
+
+/// Two rounds make the halves of a first picture, so they are short: some 15 ms on two cores.
+unsigned rounds_of_pass(const Settings& settings)
+{
+  constexpr int photons_a_round = 1 << 13, most = 32;
+  if (settings.relight || settings.estimator == Settings::Estimator::sppm) return 1;
+  return static_cast<unsigned>(std::clamp(settings.photons_per_pass / photons_a_round, 1, most));
+}
 
 /// weights: ClusterShares::photons.
 std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, const tracing::WavelengthTables& tables)
@@ -47,11 +56,11 @@ RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, c
   RunTables tables;
   static_cast<tracing::SceneTables&>(tables) = tracing::make_scene_tables(scene, scene_clusters(settings, scene), leave_out);
   ClusterShares shares = make_cluster_shares(settings, scene, bvh, tables.towards_targets_w, tables.wavelengths);
+  tables.rounds = rounds_of_pass(settings);
   tables.emitters =
-      make_emitters(photon_sources(shares.photons, tables.wavelengths), static_cast<unsigned>(settings.photons_per_pass / settings.rounds));
+      make_emitters(photon_sources(shares.photons, tables.wavelengths), static_cast<unsigned>(settings.photons_per_pass) / tables.rounds);
   tables.importance = std::move(shares.importance);
   tables.photons_per_round = count_photons(tables.emitters);
-  tables.rounds = static_cast<unsigned>(settings.rounds);
   tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass());
   tables.scene.max_surfaces = settings.max_surfaces;
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
