@@ -18,7 +18,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -62,9 +61,6 @@ struct TimedStage {
   bool caustics() const { return std::string_view(layer) == "caustic"; }
 };
 
-/// Position::look when there is no first picture to work out.
-constexpr std::size_t no_look = std::numeric_limits<std::size_t>::max();
-
 class PhotonJob final : public Run, public job::SpectrumSource {
 public:
   PhotonJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
@@ -84,7 +80,7 @@ public:
                                                  settings.smoothing == Settings::Smoothing::on ? Smoothing::Spread::everywhere
                                                                                                : Smoothing::Spread::where_it_helps)});
     }
-    if (world_.first_picture.edge == 1) at_.look = no_look;
+    has_looked_ = world_.first_picture.edge == 1;
     shares_work_ = settings.effort == Settings::Effort::automatic && !settings.relight && plan.estimates_error;
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
@@ -110,14 +106,7 @@ public:
   void step() override
   {
     const auto begin = Clock::now();
-    if (at_.look != no_look) {
-      TimedStage& now = stages_[at_.look];
-      if (now.stage->look() && ++at_.look == stages_.size()) at_.look = no_look;
-      const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-      now.seconds += seconds;
-      at_.work_seconds += seconds;
-      return;
-    }
+    if (!has_looked_) return look();
     if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 4 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
     TimedStage& now = stages_[at_.stage];
@@ -160,7 +149,7 @@ public:
     }
     if (!smoothings_.empty()) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
     snapshot.picture = std::move(picture);
-    snapshot.whole = at_.pass > 0 || (world_.first_picture.edge > 1 && at_.look == no_look);
+    snapshot.whole = at_.pass > 0 || has_first();
     snapshot.progress = progress();
     const double rounds = photon_rounds() - at_.energy_from;
     Energy energy{balance_of(outcome_watts(world_.energy.read(), world_.tables.energy_scale, rounds)), {}};
@@ -222,6 +211,7 @@ public:
   void state(tracing::State& state) override
   {
     state.value(at_);
+    state.value(has_looked_);
     state.buffer(world_.energy);
     for (TimedStage& s : stages_) {
       state.value(s.seconds);
@@ -232,7 +222,6 @@ public:
 private:
   /// Where a run is.
   struct Position {
-    std::size_t look = 0;      ///< whose turn it is in the first picture, or no_look
     std::int64_t pass = 0;     ///< passes completed
     std::size_t stage = 0;     ///< whose turn it is
     bool part_of_pass = false; ///< whether it has begun
@@ -285,6 +274,21 @@ private:
 
   bool has_halves(std::size_t stage) const { return stages_[stage].stage->has_halves(at_.pass, stage < at_.stage); }
 
+  /// The whole first picture at once: nobody wants to see a part of it.
+  void look()
+  {
+    for (TimedStage& s : stages_) {
+      const auto begin = Clock::now();
+      while (!s.stage->look()) {
+      }
+      const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      s.seconds += seconds;
+      at_.work_seconds += seconds;
+    }
+    has_looked_ = true;
+  }
+  bool has_first() const { return has_looked_ && world_.first_picture.edge > 1; }
+
   /// Of a first picture: as a stage has seen it, smoothed, of [pixel][3].
   Noisy first_seen(std::size_t stage)
   {
@@ -300,8 +304,8 @@ private:
   Noisy seen(std::size_t stage)
   {
     Stage& of = *stages_[stage].stage;
-    const bool has_first = world_.first_picture.edge > 1 && at_.look == no_look, whole = at_.pass > 0 || stage < at_.stage;
-    Noisy first = has_first && !has_halves(stage) ? first_seen(stage) : Noisy();
+    const bool whole = at_.pass > 0 || stage < at_.stage;
+    Noisy first = has_first() && !has_halves(stage) ? first_seen(stage) : Noisy();
     if (!first.rgb.empty() && !whole) return first;
     job::Picture picture = black();
     of.develop(at_.pass, stage < at_.stage, picture);
@@ -310,7 +314,7 @@ private:
       for (std::size_t i = 0; i < layer.rgb.size(); ++i)
         if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = first.rgb[i];
       layer.draw = std::move(first.draw);
-    } else if (!smoothings_.empty() && has_halves(stage) && has_first) {
+    } else if (!smoothings_.empty() && has_halves(stage) && has_first()) {
       timed([&] { smoothings_.back().smoothing.spread(layer.rgb, layer.draw); });
     }
     return layer;
@@ -329,7 +333,7 @@ private:
         stages_[s].stage->develop(at_.pass, s < at_.stage, picture);
       } else if (stages_[s].caustics()) {
         lacks_maps = true;
-        if (world_.first_picture.edge > 1 && at_.look == no_look) first = first_seen(s);
+        if (has_first()) first = first_seen(s);
       }
     Noisy layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
     for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
@@ -416,6 +420,7 @@ private:
 
   DeviceWorld world_;        ///< the stages use it
   preset::Preset preset_;    ///< with the lights as they are now
+  bool has_looked_ = false;  ///< there is a first picture, or there shall be none
   bool shares_work_ = false; ///< whether time is dealt out by what it gains
   struct SmoothingOfBlocks {
     Blocks blocks;
