@@ -4,9 +4,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
 
 namespace nephroid::photons {
 namespace {
@@ -32,35 +30,35 @@ std::vector<Between> places_between(int pixels, int blocks, int edge)
 
 } // namespace
 
-int edge_of_first_picture(int width, int height)
+std::vector<int> edges_of_first_pictures(int width, int height)
 {
-  constexpr double most_pixels = 128 * 128 * 1.25;
+  constexpr double most_blocks = 64 * 64 * 1.25;
   int edge = 1;
-  while (static_cast<double>(width) * height / edge / edge > most_pixels) edge *= 2;
-  return edge;
+  while (static_cast<double>(width) * height / edge / edge > most_blocks) edge *= 2;
+  std::vector<int> edges{edge, edge / 2};
+  std::erase_if(edges, [](int blocks) { return blocks <= 1; });
+  return edges;
 }
 
-tracing::Film film_of_blocks(const Blocks& blocks, const tracing::Film& film)
+std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> rgb)
 {
   const auto across = static_cast<std::size_t>(blocks.across()), down = static_cast<std::size_t>(blocks.down()),
              width = static_cast<std::size_t>(blocks.width), height = static_cast<std::size_t>(blocks.height),
              edge = static_cast<std::size_t>(blocks.edge);
-  const std::size_t images = film.sums.size() / (3 * width * height);
-  std::vector<std::int64_t> sums(images * 3 * across * down);
-  std::vector<std::array<double, 2>> samples(across * down);
-  for_ranges(images * down, rows_of_a_task, [&](std::size_t, Range rows) {
-    for (std::size_t row = rows.begin; row < rows.end; ++row)
-      for (std::size_t y = row % down * edge; y < std::min((row % down + 1) * edge, height); ++y)
+  std::vector<float> means(3 * across * down);
+  for_ranges(down, 1, [&](std::size_t, Range rows) {
+    for (std::size_t row = rows.begin; row < rows.end; ++row) {
+      const std::size_t top = row * edge, bottom = std::min(top + edge, height);
+      for (std::size_t y = top; y < bottom; ++y)
         for (std::size_t x = 0; x < width; ++x)
-          for (std::size_t c = 0; c < 3; ++c)
-            sums[3 * (row * across + x / edge) + c] += film.sums[3 * ((row / down * height + y) * width + x) + c];
+          for (std::size_t c = 0; c < 3; ++c) means[3 * (row * across + x / edge) + c] += rgb[3 * (y * width + x) + c];
+      for (std::size_t column = 0; column < across; ++column) {
+        const std::size_t columns = std::min((column + 1) * edge, width) - column * edge;
+        for (std::size_t c = 0; c < 3; ++c) means[3 * (row * across + column) + c] /= static_cast<float>(columns * (bottom - top));
+      }
+    }
   });
-  for (std::size_t pixel = 0; pixel < width * height; ++pixel) {
-    const std::array<double, 2> of_pixel = film.samples(pixel);
-    std::array<double, 2>& of_block = samples[pixel / width / edge * across + pixel % width / edge];
-    for (std::size_t half = 0; half < 2; ++half) of_block[half] += of_pixel[half];
-  }
-  return {std::move(sums), film.quanta_per_unit, [samples = std::move(samples)](std::size_t block) { return samples[block]; }};
+  return means;
 }
 
 std::vector<float> between_blocks(const Blocks& blocks, std::span<const float> rgb)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of fewer pixels than the run's, for what few photons and few paths can show: a pixel of theirs is a block of the run's.
 #pragma once
-#include "tracing/film.h"
-
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -13,13 +12,19 @@ struct Blocks {
   int width, height, edge;
   int across() const { return (width + edge - 1) / edge; }
   int down() const { return (height + edge - 1) / edge; }
+  std::size_t block_of(std::size_t pixel) const
+  {
+    const auto columns = static_cast<std::size_t>(width), side = static_cast<std::size_t>(edge);
+    return pixel / columns / side * static_cast<std::size_t>(across()) + pixel % columns / side;
+  }
 };
 
-/// The shortest edge, a power of two, with which a picture is small enough to be worked out at once.
-int edge_of_first_picture(int width, int height);
+/// The edges of the blocks that a run's first pictures have, powers of two above 1: the first picture is there at once, each other one
+/// soon.
+std::vector<int> edges_of_first_pictures(int width, int height);
 
-/// The same film with the sums and the samples of blocks.
-tracing::Film film_of_blocks(const Blocks& blocks, const tracing::Film& film);
+/// rgb: [pixel][3]. The means of blocks, [block][3].
+std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> rgb);
 
 /// rgb: [block][3]. The picture of [pixel][3] that changes evenly from the middle of each block to the next.
 std::vector<float> between_blocks(const Blocks& blocks, std::span<const float> rgb);

@@ -21,8 +21,8 @@ class EyeStage : public Stage {
 public:
   EyeStage(DeviceWorld& world, const char* layer, const Settings& settings)
       : world_(world), layer_(layer), pixel_samples_(settings.pixel_samples),
-        film_(world.zeroed(std::string("film ") + layer, world.film_size())),
-        first_film_(world.zeroed(std::string("first picture ") + layer, world.first_film_size())), pixels_(world, settings.pixel_samples)
+        film_(world.zeroed(std::string("film ") + layer, world.film_size())), first_film_(world.first_film()),
+        pixels_(world, settings.pixel_samples)
   {
   }
 
@@ -39,8 +39,9 @@ public:
   bool step(std::int64_t pass) override
   {
     const double most = pass < pixel_samples_ ? limit() : std::min(limit(), tracing::film_limit);
-    return pixels_.step(
-        pass, [&](std::uint32_t first, std::uint32_t count) { run(film_, world_.tables.camera, static_cast<std::uint32_t>(pass), first, count, most); });
+    return pixels_.step(pass, [&](std::uint32_t first, std::uint32_t count) {
+      run(film_, world_.tables.camera, static_cast<std::uint32_t>(pass), first, count, most);
+    });
   }
 
   void develop(std::int64_t, bool, job::Picture& picture) override
@@ -52,6 +53,7 @@ public:
   bool look() override
   {
     const shared::DeviceCamera camera = world_.first_camera();
+    first_film_ = world_.first_film();
     for (std::uint32_t half = 0; half < 2; ++half)
       run(first_film_, camera, half, 0, static_cast<std::uint32_t>(camera.width * camera.height), limit());
     return true;
@@ -66,6 +68,7 @@ public:
   {
     pixels_.state(state);
     state.buffer(film_);
+    if (state.is_read()) first_film_ = world_.first_film();
     state.buffer(first_film_);
   }
 
@@ -97,7 +100,7 @@ private:
   const char* layer_;
   std::int64_t pixel_samples_;
   compute::Buffer<std::int64_t> film_;
-  compute::Buffer<std::int64_t> first_film_; ///< of a pixel for each block of the run's first picture
+  compute::Buffer<std::int64_t> first_film_; ///< with a pixel for each block of the first picture
   SampledPixels pixels_;
 };
 

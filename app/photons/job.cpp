@@ -70,17 +70,17 @@ public:
         preset_(preset), stop_seconds_(preset.stop.seconds)
   {
     const Settings& settings = plan.settings;
-    world_.first_picture = {scene.camera.width, scene.camera.height, 1};
     if (plan.first_picture && !settings.relight && settings.estimator != Settings::Estimator::sppm)
-      world_.first_picture.edge = edge_of_first_picture(scene.camera.width, scene.camera.height);
+      first_edges_ = edges_of_first_pictures(scene.camera.width, scene.camera.height);
+    smooths_seen_ = plan.first_picture && settings.smoothing == Settings::Smoothing::automatic;
     if (plan.runs(smoothing_part)) {
       const std::shared_ptr<const Smoothing::View> view = Smoothing::view_of(scene, bvh);
-      for (Blocks blocks = world_.first_picture; blocks.edge > 0; blocks.edge /= 2)
+      Blocks blocks{scene.camera.width, scene.camera.height, first_edges_.empty() ? 1 : 2 * first_edges_[0]};
+      for (; blocks.edge > 0; blocks.edge /= 2)
         smoothings_.push_back({blocks, Smoothing(view, blocks.across(), blocks.down(),
                                                  settings.smoothing == Settings::Smoothing::on ? Smoothing::Spread::everywhere
                                                                                                : Smoothing::Spread::where_it_helps)});
     }
-    has_looked_ = world_.first_picture.edge == 1;
     shares_work_ = settings.effort == Settings::Effort::automatic && !settings.relight && plan.estimates_error;
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
@@ -106,7 +106,9 @@ public:
   void step() override
   {
     const auto begin = Clock::now();
-    if (!has_looked_) return look();
+    if (looks_ < first_edges_.size()) return look();
+    if (at_.pass == 1 && at_.stage == 0 && !at_.part_of_pass && smooths_seen_ && !smoothings_.empty())
+      timed([&] { smoothings_.back().smoothing.look(); }); // before a picture waits for it
     if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 4 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
     TimedStage& now = stages_[at_.stage];
@@ -149,7 +151,7 @@ public:
     }
     if (!smoothings_.empty()) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
     snapshot.picture = std::move(picture);
-    snapshot.whole = at_.pass > 0 || has_first();
+    snapshot.whole = at_.pass > 0 || looks_ > 0;
     snapshot.progress = progress();
     const double rounds = photon_rounds() - at_.energy_from;
     Energy energy{balance_of(outcome_watts(world_.energy.read(), world_.tables.energy_scale, rounds)), {}};
@@ -211,7 +213,8 @@ public:
   void state(tracing::State& state) override
   {
     state.value(at_);
-    state.value(has_looked_);
+    state.value(looks_);
+    if (state.is_read() && looks_ > 0) set_first_picture();
     state.buffer(world_.energy);
     for (TimedStage& s : stages_) {
       state.value(s.seconds);
@@ -274,9 +277,11 @@ private:
 
   bool has_halves(std::size_t stage) const { return stages_[stage].stage->has_halves(at_.pass, stage < at_.stage); }
 
-  /// The whole first picture at once: nobody wants to see a part of it.
+  /// The next of the first pictures, whole: nobody wants to see a part of it.
   void look()
   {
+    ++looks_;
+    set_first_picture();
     for (TimedStage& s : stages_) {
       const auto begin = Clock::now();
       while (!s.stage->look()) {
@@ -285,19 +290,37 @@ private:
       s.seconds += seconds;
       at_.work_seconds += seconds;
     }
-    has_looked_ = true;
   }
-  bool has_first() const { return has_looked_ && world_.first_picture.edge > 1; }
+
+  /// Of so many looks.
+  void set_first_picture()
+  {
+    constexpr unsigned rounds_a_look = 2;
+    const Blocks blocks = blocks_of(first_edges_[looks_ - 1]);
+    std::vector<bool> may_show_glass(static_cast<std::size_t>(blocks.across()) * static_cast<std::size_t>(blocks.down()));
+    for (const std::uint32_t pixel : world_.pixels.glass) may_show_glass[blocks.block_of(pixel)] = true;
+    std::vector<std::uint32_t> glass;
+    for (std::size_t block = 0; block < may_show_glass.size(); ++block)
+      if (may_show_glass[block]) glass.push_back(static_cast<std::uint32_t>(block));
+    world_.first = {blocks, std::min(rounds_a_look * static_cast<unsigned>(looks_), world_.tables.rounds - 1),
+                    compute::Buffer(world_.context, "blocks of glass", glass)};
+  }
+
+  Smoothing& smoothing_of(const Blocks& blocks)
+  {
+    return std::ranges::find(smoothings_, blocks.edge, [](const SmoothingOfBlocks& of) { return of.blocks.edge; })->smoothing;
+  }
 
   /// Of a first picture: as a stage has seen it, smoothed, of [pixel][3].
   Noisy first_seen(std::size_t stage)
   {
-    job::Picture picture = black_blocks(world_.first_picture);
+    const Blocks& first = world_.first.blocks;
+    job::Picture picture = black_blocks(first);
     stages_[stage].stage->develop_first(picture);
     if (picture.layers.empty()) return {};
     Noisy blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
-    if (!smoothings_.empty()) timed([&] { smoothings_[0].smoothing.spread(blocks.rgb, blocks.draw); });
-    return between_blocks(world_.first_picture, blocks);
+    if (!smoothings_.empty()) timed([&] { smoothing_of(first).spread(blocks.rgb, blocks.draw); });
+    return between_blocks(first, blocks);
   }
 
   /// The layer of a stage of no caustics.
@@ -305,7 +328,7 @@ private:
   {
     Stage& of = *stages_[stage].stage;
     const bool whole = at_.pass > 0 || stage < at_.stage;
-    Noisy first = has_first() && !has_halves(stage) ? first_seen(stage) : Noisy();
+    Noisy first = looks_ > 0 && !has_halves(stage) ? first_seen(stage) : Noisy();
     if (!first.rgb.empty() && !whole) return first;
     job::Picture picture = black();
     of.develop(at_.pass, stage < at_.stage, picture);
@@ -314,7 +337,7 @@ private:
       for (std::size_t i = 0; i < layer.rgb.size(); ++i)
         if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = first.rgb[i];
       layer.draw = std::move(first.draw);
-    } else if (!smoothings_.empty() && has_halves(stage) && has_first()) {
+    } else if (!smoothings_.empty() && smooths_seen_ && has_halves(stage)) {
       timed([&] { smoothings_.back().smoothing.spread(layer.rgb, layer.draw); });
     }
     return layer;
@@ -324,46 +347,82 @@ private:
   Noisy caustics()
   {
     const auto is_shown = [&](std::size_t s) { return stages_[s].caustics() && (smoothings_.empty() || has_halves(s)); };
-    job::Picture picture = black();
-    tracing::layer_of(picture, "caustic");
     Noisy first; // of photon maps, which come after all photons of a pass; until then glass shows what is known otherwise
     bool lacks_maps = false;
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (is_shown(s)) {
-        stages_[s].stage->develop(at_.pass, s < at_.stage, picture);
-      } else if (stages_[s].caustics()) {
+      if (stages_[s].caustics() && !is_shown(s)) {
         lacks_maps = true;
-        if (has_first()) first = first_seen(s);
+        if (looks_ > 0) first = first_seen(s);
       }
+    job::Picture picture = black();
+    tracing::layer_of(picture, "caustic");
+    for (std::size_t s = 0; s < stages_.size(); ++s)
+      if (is_shown(s)) stages_[s].stage->develop(at_.pass, s < at_.stage, picture);
     Noisy layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
     for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
       if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
-    if (!smoothings_.empty() && !layer.draw.empty()) timed([&] { smooth(layer, is_shown); });
+    if (!smoothings_.empty() && !layer.draw.empty()) timed([&] { smooth(layer); });
     if (!first.rgb.empty()) std::ranges::transform(layer.rgb, first.rgb, layer.rgb.begin(), std::plus());
     if (!first.draw.empty() && !layer.draw.empty()) std::ranges::transform(layer.draw, first.draw, layer.draw.begin(), std::plus());
     return layer;
   }
 
   /// Spreads caustics in blocks so large that their noise needs no wide kernels: that is faster, and reaches farther.
-  template <class IsShown>
-  void smooth(Noisy& caustics, const IsShown& is_shown)
+  void smooth(Noisy& caustics)
   {
-    const int width = world_.tables.camera.width, height = world_.tables.camera.height;
-    const double needed = smoothings_.size() > 1 ? Smoothing::pixels_needed(caustics.rgb, caustics.draw, width, height) : 1;
     auto by = smoothings_.end() - 1;
-    while (by != smoothings_.begin() && needed / by->blocks.edge / by->blocks.edge > most_needed) --by;
+    if (smoothings_.size() > 1) {
+      const Blocks blocks = blocks_of(first_edges_[0]);
+      const double needed = pixels_needed(mean_of_blocks(blocks, caustics), blocks);
+      while (by != smoothings_.begin() && needed / by->blocks.edge / by->blocks.edge > most_needed) --by;
+    }
     if (by->blocks.edge == 1) return by->smoothing.spread(caustics.rgb, caustics.draw, {estimate_, caustic_noise});
-    job::Picture picture = black_blocks(by->blocks);
-    for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (is_shown(s)) stages_[s].stage->develop_blocks(at_.pass, s < at_.stage, by->blocks, picture);
-    Noisy blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+    Noisy blocks = mean_of_blocks(by->blocks, caustics);
     by->smoothing.spread(blocks.rgb, blocks.draw);
     Noisy spread = between_blocks(by->blocks, blocks);
-    std::vector<double> light(spread.rgb.size() / 3);
-    for (std::size_t i = 0; i < spread.rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(caustics.rgb[i]), 0.0) / 3;
-    const Noisy plain = caustics;
-    mix(plain.rgb, plain.draw, {plain.rgb, plain.draw}, light, width, height, spread.rgb, spread.draw);
+    if (by->blocks.edge < first_edges_[0]) keep_fine(std::move(caustics), spread); // in larger ones the pixels hold next to nothing
     caustics = std::move(spread);
+  }
+
+  Blocks blocks_of(int edge) const { return {world_.tables.camera.width, world_.tables.camera.height, edge}; }
+
+  /// The pixels that a kernel of single ones would need, in the mean of all light.
+  static double pixels_needed(const Noisy& layer, const Blocks& blocks)
+  {
+    const std::vector<double> light = light_of(layer.rgb), portion = Smoothing::portions(light, layer.draw, blocks.across(), blocks.down());
+    double needed = 0, all = 0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      needed += std::max(portion[i] / (Smoothing::noise * Smoothing::noise), light[i]);
+      all += light[i];
+    }
+    return all > 0 ? needed / all * blocks.edge * blocks.edge : 1;
+  }
+
+  /// Mixes the plain layer into the one that was spread in blocks, where that is the better.
+  void keep_fine(Noisy plain, Noisy& spread) const
+  {
+    const int width = world_.tables.camera.width, height = world_.tables.camera.height;
+    const std::vector<double> light = light_of(plain.rgb), portion = Smoothing::portions(light, plain.draw, width, height),
+                              light_spread = light_of(spread.rgb);
+    // Where few portions fell, or none, their noise cannot be told: there nothing speaks for the plain layer.
+    constexpr double least_portions = 16, around = 15 * 15; // pixels
+    for (std::size_t i = 0; i < light.size(); ++i)
+      if (portion[i] <= 0 || light_spread[i] * around < least_portions * portion[i])
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) plain.rgb[c] = spread.rgb[c], plain.draw[c] = spread.draw[c];
+    mix(plain.rgb, plain.draw, {plain.rgb, plain.draw}, light, width, height, spread.rgb, spread.draw);
+  }
+
+  /// Of R, G and B.
+  static std::vector<double> light_of(const std::vector<float>& rgb)
+  {
+    std::vector<double> light(rgb.size() / 3);
+    for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
+    return light;
+  }
+
+  static Noisy mean_of_blocks(const Blocks& blocks, const Noisy& layer)
+  {
+    return {photons::mean_of_blocks(blocks, layer.rgb), photons::mean_of_blocks(blocks, layer.draw)};
   }
 
   static Noisy between_blocks(const Blocks& blocks, const Noisy& layer)
@@ -418,17 +477,19 @@ private:
     return 0;
   }
 
-  DeviceWorld world_;        ///< the stages use it
-  preset::Preset preset_;    ///< with the lights as they are now
-  bool has_looked_ = false;  ///< there is a first picture, or there shall be none
-  bool shares_work_ = false; ///< whether time is dealt out by what it gains
+  DeviceWorld world_;            ///< the stages use it
+  preset::Preset preset_;        ///< with the lights as they are now
+  std::vector<int> first_edges_; ///< of the blocks of first pictures
+  std::size_t looks_ = 0;        ///< first pictures so far
+  bool smooths_seen_ = false;    ///< what paths from the eye see of lights, as well as caustics
+  bool shares_work_ = false;     ///< whether time is dealt out by what it gains
   struct SmoothingOfBlocks {
     Blocks blocks;
     Smoothing smoothing;
   };
   std::vector<SmoothingOfBlocks> smoothings_; ///< from the first picture's blocks to single pixels; or none
-  std::vector<float> estimate_;  ///< Run::set_estimate
-  double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's
+  std::vector<float> estimate_;               ///< Run::set_estimate
+  double smoothing_seconds_ = 0;              ///< of all pictures since the program began; no work of the run's
   std::optional<double> stop_seconds_;
   std::int64_t passes_ = -1; ///< -1: until stop_seconds_, or until whoever steps it has enough
   std::vector<TimedStage> stages_;

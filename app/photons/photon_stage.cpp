@@ -77,17 +77,15 @@ public:
 
   bool look() override
   {
-    if (round_ < world_.tables.first_rounds()) step(0);
-    return round_ >= world_.tables.first_rounds();
+    if (round_ < world_.first.rounds) step(0);
+    return round_ >= world_.first.rounds;
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    tracing::add_layer("caustic", film(passes, done), picture);
-  }
-  void develop_blocks(std::int64_t passes, bool done, const Blocks& blocks, job::Picture& picture) override
-  {
-    tracing::add_layer("caustic", film_of_blocks(blocks, film(passes, done)), picture);
+    const std::array<double, 2> samples = tracing::halves_of(rounds(passes, done), slices_.part());
+    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }},
+                       picture);
   }
 
   void state(tracing::State& state) override
@@ -106,12 +104,6 @@ public:
   }
 
 private:
-  tracing::Film film(std::int64_t passes, bool done) const
-  {
-    const std::array<double, 2> samples = tracing::halves_of(rounds(passes, done), slices_.part());
-    return {film_.read(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }};
-  }
-
   /// That are complete.
   std::int64_t rounds(std::int64_t passes, bool done) const
   {

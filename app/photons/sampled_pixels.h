@@ -20,10 +20,7 @@ namespace nephroid::photons {
 class SampledPixels {
 public:
   /// enough: samples of a pixel without glass, one a pass; preset::max_passes: all pixels in every pass; 0: those of glass alone.
-  SampledPixels(const DeviceWorld& world, std::int64_t enough)
-      : lists_(world.pixels), enough_(enough), steps_(size(0), 1024)
-  {
-  }
+  SampledPixels(const DeviceWorld& world, std::int64_t enough) : lists_(world.pixels), enough_(enough), steps_(size(0), 1024) {}
 
   std::int64_t passes() const { return lists_.glass.empty() ? enough_ : preset::max_passes; }
   double part() const { return steps_.part(); }

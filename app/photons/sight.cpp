@@ -11,7 +11,6 @@
 namespace nephroid::photons {
 namespace {
 
-constexpr int most_surfaces = 32;
 constexpr std::size_t middle = optics::wavelength_count / 2;
 
 using Type = scene::Material::Type;
@@ -215,7 +214,8 @@ private:
 
 } // namespace
 
-Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row)
+Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row,
+                         int most_surfaces)
 {
   const double x = 2 * (column + 0.5) / camera.width - 1, y = 1 - 2 * (row + 0.5) / camera.height;
   const glm::dvec3 way =

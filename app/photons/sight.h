@@ -24,8 +24,10 @@ struct Sight {
   float spacing = 0; ///< how far apart neighbouring pixels would be there, across `way`, had glass and mirrors been flat
 };
 
-/// camera: the scene's, or one of the same view with other pixels. Mirrors are followed, and so is glass: refracted at the middle of the wavelengths, reflected where all light is; up to 32 surfaces.
-Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row);
+/// camera: the scene's, or one of the same view with other pixels. Mirrors are followed, and so is glass: refracted at the middle of the
+/// wavelengths, reflected where all light is.
+Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row,
+                         int most_surfaces = 32);
 
 /// The pixels, row after row, whose square the outline of a triangle or ellipsoid of glass or of a mirror may touch, whatever stands before
 /// it; all of them for a camera inside glass. Every path that meets glass or a mirror first is of one of these.

@@ -62,23 +62,6 @@ const Reach& within_reach()
   return sorted;
 }
 
-/// Variance over light around each pixel, means of R, G and B: of light that comes in equal portions, one portion. 0 in the dark.
-std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height)
-{
-  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
-  const SummedArea variances(width, height, [&](std::size_t i) {
-    const double r = error_draw[3 * i], g = error_draw[3 * i + 1], b = error_draw[3 * i + 2];
-    return (r * r + g * g + b * b) / 3;
-  });
-  std::vector<double> portion(light.size());
-  for (std::size_t i = 0; i < portion.size(); ++i) {
-    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    const double near = lights.mean(x, y, noise_reach);
-    portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_reach), 0.0) / near : 0;
-  }
-  return portion;
-}
-
 /// Calls work(i, j) for each pair of pixels side by side or one above the other, and `diagonal` those that touch at a corner.
 template <class Work>
 void for_neighbours(int width, int height, bool diagonal, const Work& work)
@@ -369,15 +352,20 @@ void Smoothing::look()
   });
 }
 
-double Smoothing::pixels_needed(std::span<const float> rgb, std::span<const float> error_draw, int width, int height)
+std::vector<double> Smoothing::portions(std::span<const double> light, std::span<const float> error_draw, int width, int height)
 {
-  const std::vector<double> light = light_of(rgb), portion = portions(light, error_draw, width, height);
-  double needed = 0, all = 0;
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    needed += std::max(portion[i] / (noise * noise), light[i]);
-    all += light[i];
+  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
+  const SummedArea variances(width, height, [&](std::size_t i) {
+    const double r = error_draw[3 * i], g = error_draw[3 * i + 1], b = error_draw[3 * i + 2];
+    return (r * r + g * g + b * b) / 3;
+  });
+  std::vector<double> portion(light.size());
+  for (std::size_t i = 0; i < portion.size(); ++i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const double near = lights.mean(x, y, noise_reach);
+    portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_reach), 0.0) / near : 0;
   }
-  return all > 0 ? needed / all : 1;
+  return portion;
 }
 
 std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)

@@ -38,16 +38,16 @@ public:
   };
   static std::shared_ptr<const View> view_of(const scene::Scene& scene, const scene::Bvh& bvh);
 
-  /// Looks once through the middle of every pixel of a picture of width x height, on every core. Light is spread within one nearly flat part of the diffuse object that
-  /// the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where glass or a mirror shows none, or
-  /// is curved so that neighbours show places far apart, it is spread within one nearly flat part of the glass or mirror.
-  /// The looks wait until the first call of look() or spread(), for they would hold up a run's first picture: until then it keeps what is
-  /// looked at.
+  /// Looks once through the middle of every pixel of a picture of width x height, on every core. Light is spread within one nearly flat
+  /// part of the diffuse object that the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where
+  /// glass or a mirror shows none, or is curved so that neighbours show places far apart, it is spread within one nearly flat part of the
+  /// glass or mirror. The looks wait until the first call of look() or spread(), for they would hold up a run's first picture: until then
+  /// it keeps what is looked at.
   Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
   void look();
 
-  /// How many pixels a kernel needs, in the mean of all light; 1 where nothing is noisy. The arguments are spread()'s.
-  static double pixels_needed(std::span<const float> rgb, std::span<const float> error_draw, int width, int height);
+  /// Variance over light around each pixel, means of R, G and B: of light that comes in equal portions, one portion. 0 in the dark.
+  static std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height);
 
   /// What it takes at most, in bytes.
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);

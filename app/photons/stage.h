@@ -41,7 +41,7 @@ public:
   virtual std::int64_t passes() const { return preset::max_passes; }
   /// One step of about 50 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.
   virtual bool step(std::int64_t pass) = 0;
-  /// One step of its part of the run's first picture (DeviceWorld::first_picture), before the first pass. True when that is complete.
+  /// One step of its part of the run's first picture (DeviceWorld::first), before the first pass. True when that is complete.
   virtual bool look() { return true; }
   /// Adds its layers to the first picture, as develop.
   virtual void develop_first(job::Picture& /*picture*/) {}
@@ -50,8 +50,6 @@ public:
   /// Adds its layers to the picture, and its error to Picture::error_draw (add_layer in film.h), as the means of `passes` complete passes
   /// and what is done of the one in hand, which has the number `passes`; done: whether it has had its turn in that pass already.
   virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;
-  /// develop of a stage of caustics, in blocks: the picture has a pixel for each.
-  virtual void develop_blocks(std::int64_t /*passes*/, bool /*done*/, const Blocks& /*blocks*/, job::Picture& /*picture*/) {}
   /// Whether both halves of its film are whole by then: only then there is a draw of its error.
   virtual bool has_halves(std::int64_t passes, bool done) const { return passes + (done ? 1 : 0) >= 2; }
   /// Adds the radiance of its layer in a pixel, as develop; false where its film knows colours only.

@@ -32,7 +32,8 @@ public:
   {
     const auto work = [&](std::uint32_t first, std::uint32_t count) {
       for (std::uint32_t path = 0; path < paths.count; ++path) {
-        look(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster, first, count);
+        look(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster,
+             world_.pixels.on_device, first, count);
         gather(first, count);
       }
       world_.context.finish();
@@ -41,16 +42,16 @@ public:
   }
 
   /// Stage::warm_up for its kernel.
-  void warm_up() { look(world_.tables.camera, world_.seed, 0, {}, 0, 0, 0); }
+  void warm_up() { look(world_.tables.camera, world_.seed, 0, {}, 0, world_.pixels.on_device, 0, 0); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
   const SampledPixels& pixels() const { return pixels_; }
 
   void state(tracing::State& state) { pixels_.state(state); }
 
-  /// The next path of each of `count` pixels of the camera's, into points().
+  /// The next path of each of `count` of the camera's pixels, into points().
   void look(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster,
-            std::uint32_t first, std::uint32_t count)
+            const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count)
   {
     world_.run(view_, std::max(count, 1u), 64,
                {{"cluster_cdf", world_.buffers.cluster_cdf},
@@ -63,7 +64,7 @@ public:
                 {"path_count", paths.count},
                 {"cluster", cluster},
                 {"object_count", static_cast<int>(world_.tables.objects.size())},
-                {"pixels", world_.pixels.on_device},
+                {"pixels", pixels},
                 {"first", first},
                 {"count", count}});
   }

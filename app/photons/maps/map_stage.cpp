@@ -23,7 +23,7 @@ public:
   MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), map_(world.map.value()), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
         paths_(world.tables.eye_paths), eye_(world, 0), film_(world.zeroed("film photon maps", world.film_size())),
-        first_film_(world.zeroed("first picture photon maps", world.first_film_size())),
+        first_film_(world.first_film()),
         gather_(compute::Program(world.context, "photons/gather.cl", world.defines).kernel("gather_to_film"))
   {
   }
@@ -38,21 +38,22 @@ public:
   {
     map_.build(first_radius_, 0);
     eye_.warm_up();
-    gather(film_, world_.pixels.count, 0, first_radius_, world_.tables.rounds, 0, 0);
+    gather(film_, world_.pixels.count, 0, first_radius_, world_.tables.rounds, world_.pixels.on_device, 0, 0);
   }
 
   /// In the photons of the first rounds, within a radius that grows with the blocks.
   bool look() override
   {
-    const unsigned rounds = world_.tables.first_rounds();
-    if (rounds == 0) return true;
+    const FirstPicture& first = world_.first;
     const shared::DeviceCamera camera = world_.first_camera();
-    const auto count = static_cast<std::uint32_t>(camera.width * camera.height);
-    const double radius = first_radius_ * world_.first_picture.edge;
-    map_.build(radius, rounds * world_.tables.photons_per_round);
+    const auto count = static_cast<std::uint32_t>(first.glass.size());
+    const double radius = first_radius_ * first.blocks.edge;
+    first_film_ = world_.first_film();
+    if (first.rounds == 0) return true;
+    map_.build(radius, first.rounds * world_.tables.photons_per_round);
     for (std::uint32_t path = 0; path < 2 * first_paths; ++path) {
-      eye_.look(camera, world_.seed, 0, {first_paths, path, path}, -1, 0, count);
-      gather(first_film_, count, path % 2, radius, rounds, 0, count);
+      eye_.look(camera, world_.seed, 0, {first_paths, path, path}, -1, first.glass, 0, count);
+      gather(first_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, first.rounds, first.glass, 0, count);
     }
     return true;
   }
@@ -71,7 +72,7 @@ public:
     const auto number = static_cast<std::uint32_t>(pass);
     const EyePaths::Paths paths{paths_, before_[0] + before_[1], before_[number % 2]};
     const bool complete = eye_.step(world_.seed, number, paths, -1, [&](std::uint32_t first, std::uint32_t count) {
-      gather(film_, world_.pixels.count, number, radius, world_.tables.rounds, first, count);
+      gather(film_, world_.pixels.count, number, radius, world_.tables.rounds, world_.pixels.on_device, first, count);
     });
     if (complete) before_[number % 2] += paths_;
     return complete;
@@ -79,11 +80,8 @@ public:
 
   void develop(std::int64_t, bool, job::Picture& picture) override
   {
-    tracing::add_layer("caustic", film(), picture);
-  }
-  void develop_blocks(std::int64_t, bool, const Blocks& blocks, job::Picture& picture) override
-  {
-    tracing::add_layer("caustic", film_of_blocks(blocks, film()), picture);
+    const double scale = world_.tables.caustic_scale * world_.white;
+    tracing::add_layer("caustic", {film_.read(), scale, [&](std::size_t pixel) { return eye_.pixels().samples(pixel); }}, picture);
   }
 
   void state(tracing::State& state) override
@@ -92,6 +90,7 @@ public:
     state.value(paths_);
     state.value(before_);
     state.buffer(film_);
+    if (state.is_read()) first_film_ = world_.first_film();
     state.buffer(first_film_);
     state.buffer(map_.stored());
     if (state.is_read()) sorted_pass_ = -1;
@@ -101,14 +100,9 @@ private:
   /// Of a pixel in each half of the first picture.
   static constexpr std::uint32_t first_paths = 4;
 
-  tracing::Film film() const
-  {
-    return {film_.read(), world_.tables.caustic_scale * world_.white, [&](std::size_t pixel) { return eye_.pixels().samples(pixel); }};
-  }
-
-  /// pixels: of the film. rounds: of photons that are in the map.
-  void gather(const compute::Buffer<std::int64_t>& film, std::uint32_t pixels, std::uint32_t pass, double radius, unsigned rounds,
-              std::uint32_t first, std::uint32_t count)
+  /// picture: pixels of the film. rounds: of photons that are in the map.
+  void gather(const compute::Buffer<std::int64_t>& film, std::uint32_t picture, std::uint32_t pass, double radius, unsigned rounds,
+              const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count)
   {
     const RunTables& t = world_.tables;
     const double quanta = photon_scale(t.photons_per_round, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
@@ -116,8 +110,8 @@ private:
                 {{"points", eye_.points()},
                  {"film", film},
                  {"energy", world_.energy},
-                 {"pixels", world_.pixels.on_device},
-                 {"picture", pixels},
+                 {"pixels", pixels},
+                 {"picture", picture},
                  {"pass", pass},
                  {"first", first},
                  {"count", count},

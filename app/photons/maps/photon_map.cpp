@@ -32,7 +32,7 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
   int bent = 0, looks = 0;
   for (int row = step / 2; row < height; row += step)
     for (int column = step / 2; column < width; column += step, ++looks) {
-      const int object = look_through_pixel(scene, bvh, scene.camera, column, row).first.object;
+      const int object = look_through_pixel(scene, bvh, scene.camera, column, row, 1).first.object;
       bent += object >= 0 && material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type != scene::Material::Type::diffuse;
     }
   return static_cast<double>(bent) / looks;

@@ -268,10 +268,9 @@ private:
     // Pixels without photons keep the first radius, and a search may be as wide as 3 cells.
     if (!sorted_) map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
     sorted_ = true;
-    return eye_.step(seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), {1, static_cast<std::uint32_t>(iteration), 0},
-                     at_.cluster, [&](std::uint32_t first_pixel, std::uint32_t count) {
-                       gather_photons(eye_.points(), first_pixel, count, at_.cluster, count);
-                     });
+    return eye_.step(
+        seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), {1, static_cast<std::uint32_t>(iteration), 0}, at_.cluster,
+        [&](std::uint32_t first_pixel, std::uint32_t count) { gather_photons(eye_.points(), first_pixel, count, at_.cluster, count); });
   }
 
   DeviceWorld& world_;

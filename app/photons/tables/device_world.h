@@ -23,6 +23,13 @@ struct PixelLists {
   compute::Buffer<std::uint32_t> on_device; ///< all of them, then those of glass
 };
 
+/// The newest of a run's first pictures.
+struct FirstPicture {
+  Blocks blocks{0, 0, 0};               ///< edge 0: there is none
+  unsigned rounds = 0;                  ///< of photons, of the first pass
+  compute::Buffer<std::uint32_t> glass; ///< blocks that may show glass or a mirror
+};
+
 struct Relighting;
 
 struct DeviceWorld : tracing::World {
@@ -32,7 +39,7 @@ struct DeviceWorld : tracing::World {
   compute::Buffer<std::int64_t> energy{}; ///< [OUTCOME_COUNT] quanta
   compute::Buffer<shared::DeviceEmitter> emitters{};
   PixelLists pixels{};
-  Blocks first_picture{}; ///< those that the run's first picture has
+  FirstPicture first{};
   std::optional<PhotonMap> map{};           ///< that photons which are splatted go to as well, where a stage gathers them
   std::shared_ptr<Relighting> relighting{}; ///< where layers are kept for another light
 
@@ -41,17 +48,20 @@ struct DeviceWorld : tracing::World {
   {
     return std::size_t{3} * halves * static_cast<std::size_t>(tables.camera.width) * static_cast<std::size_t>(tables.camera.height);
   }
-  /// The run's camera with a pixel for each block of its first picture.
+  /// The run's camera with a pixel for each block of the first picture.
   shared::DeviceCamera first_camera() const
   {
     shared::DeviceCamera camera = tables.camera;
-    camera.width = first_picture.across();
-    camera.height = first_picture.down();
+    camera.width = first.blocks.across();
+    camera.height = first.blocks.down();
     return camera;
   }
-  std::size_t first_film_size() const
+  /// Of the first picture, empty where there is none.
+  compute::Buffer<std::int64_t> first_film() const
   {
-    return std::size_t{3} * halves * static_cast<std::size_t>(first_picture.across()) * static_cast<std::size_t>(first_picture.down());
+    const auto blocks =
+        first.blocks.edge > 0 ? static_cast<std::size_t>(first.blocks.across()) * static_cast<std::size_t>(first.blocks.down()) : 0;
+    return zeroed("first picture", 3 * halves * blocks);
   }
   /// Runs a kernel that sends a slice of the photons of a pass.
   void send(compute::Kernel& kernel, const tracing::Slice& slice, std::int64_t pass, std::initializer_list<compute::Argument> own)

@@ -6,7 +6,6 @@
 #include "scene/bvh.h"
 #include "tracing/scene_tables.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace nephroid::photons {
@@ -16,8 +15,6 @@ struct RunTables : tracing::SceneTables {
   unsigned photons_per_round = 0;              ///< as dealt out: at least one for each emitter
   unsigned rounds = 1;                         ///< of a pass: photons that are splatted come in so many fair samples
   unsigned eye_paths = 1;                      ///< that gather photons, of a pixel in a pass (maps/photon_map.h)
-  /// Rounds that a run's first picture takes; not all of a pass.
-  unsigned first_rounds() const { return std::min(2u, rounds - 1); }
   unsigned photons_per_pass() const { return rounds * photons_per_round; }
   std::vector<double> importance;             ///< [cluster] 0..1, the largest 1: see ClusterShares
   double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two
