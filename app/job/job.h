@@ -36,6 +36,7 @@ struct Progress {
   std::int64_t steps = -1; ///< in all; -1: it stops by time
   std::uint64_t work = 0;  ///< done so far: photons sent, facets tried, ...
   double work_seconds = 0; ///< of stepping, without start-up and snapshots
+  bool whole = true;       ///< false: parts of the picture are black since nothing was computed for them yet
   Units units = {};
 };
 
@@ -68,7 +69,6 @@ struct ExtraFile {
 struct Snapshot {
   std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
   std::string caption;                    ///< a sentence on what it shows, where that is not what the preset asks for; else empty
-  bool whole = true;                      ///< false: parts of the picture are black since nothing was computed for them yet
   bool stands_in = false;                 ///< true: the picture shows the work before the first one of what was asked for, and is no result
   std::vector<NamedPicture> pictures;     ///< the others
   Progress progress;

@@ -208,14 +208,13 @@ private:
 
   double wall_seconds() const { return wall_before_ + seconds_since(began_); }
 
-  /// The first complete pass is the first that is worth a row; the end is always one.
+  /// The first whole picture is the first that is worth a row; the end is always one.
   bool is_due() const
   {
     if (history_.columns.empty()) return false;
     const job::Progress progress = job_->progress();
     if (job_->finished()) return progress.work_seconds > last_seconds_;
-    const std::int64_t passes = reference_ ? 1 : 2; // an estimate needs both halves
-    return progress.step >= passes && progress.work_seconds >= next_;
+    return progress.whole && progress.work_seconds > last_seconds_ && progress.work_seconds >= next_;
   }
 
   void measure()
@@ -223,8 +222,10 @@ private:
     const auto begin = Clock::now();
     const job::Snapshot snapshot = job_->snapshot();
     const job::Progress& progress = snapshot.progress;
-    if (snapshot.stands_in) { // a run that ends before its first picture has no error
+    const bool tells = !snapshot.stands_in && (reference_ || !snapshot.picture->error_draw.empty());
+    if (!tells) { // there is no picture of what was asked for yet, or nothing is known of its error
       last_seconds_ = progress.work_seconds;
+      next_ = spacing * last_seconds_;
       return;
     }
     job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, errors_of(*snapshot.picture)};

@@ -2,11 +2,10 @@
 // Passes, in each of which every stage has its turn, step by step.
 #include "photons/job.h"
 #include "engine/engine.h"
-#include "photons/mixture.h"
+#include "photons/block_smoothing.h"
 #include "photons/relight/layer_film.h"
 #include "photons/sampled_pixels.h"
 #include "photons/sight.h"
-#include "photons/smoothing.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
 #include "tracing/scales.h"
@@ -45,14 +44,6 @@ PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene&
   return lists;
 }
 
-/// The pixels that a kernel of Smoothing may need, in the mean of all light: with more, caustics are smoothed in larger blocks.
-constexpr double most_needed = 24;
-
-/// A layer with a draw of its error, which is empty where it is not known.
-struct Noisy {
-  std::vector<float> rgb, draw;
-};
-
 /// A stage with the seconds it has worked.
 struct TimedStage {
   std::unique_ptr<Stage> stage;
@@ -73,14 +64,10 @@ public:
     if (plan.first_picture && !settings.relight && settings.estimator != Settings::Estimator::sppm)
       first_edges_ = edges_of_first_pictures(scene.camera.width, scene.camera.height);
     smooths_seen_ = plan.first_picture && settings.smoothing == Settings::Smoothing::automatic;
-    if (plan.runs(smoothing_part)) {
-      const std::shared_ptr<const Smoothing::View> view = Smoothing::view_of(scene, bvh);
-      Blocks blocks{scene.camera.width, scene.camera.height, first_edges_.empty() ? 1 : 2 * first_edges_[0]};
-      for (; blocks.edge > 0; blocks.edge /= 2)
-        smoothings_.push_back({blocks, Smoothing(view, blocks.across(), blocks.down(),
-                                                 settings.smoothing == Settings::Smoothing::on ? Smoothing::Spread::everywhere
-                                                                                               : Smoothing::Spread::where_it_helps)});
-    }
+    if (plan.runs(smoothing_part))
+      smoothing_.emplace(scene, bvh,
+                         settings.smoothing == Settings::Smoothing::on ? Smoothing::Spread::everywhere : Smoothing::Spread::where_it_helps,
+                         first_edges_.empty() ? 1 : first_edges_[0]);
     shares_work_ = settings.effort == Settings::Effort::automatic && !settings.relight && plan.estimates_error;
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
@@ -107,8 +94,8 @@ public:
   {
     const auto begin = Clock::now();
     if (looks_ < first_edges_.size()) return look();
-    if (at_.pass == 1 && at_.stage == 0 && !at_.part_of_pass && smooths_seen_ && !smoothings_.empty())
-      timed([&] { smoothings_.back().smoothing.look(); }); // before a picture waits for it
+    if (at_.pass == 1 && at_.stage == 0 && !at_.part_of_pass && smooths_seen_ && smoothing_)
+      timed([&] { smoothing_->pixels().look(); }); // before a picture waits for it
     if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 4 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
     TimedStage& now = stages_[at_.stage];
@@ -133,6 +120,7 @@ public:
       p.work += static_cast<std::uint64_t>((static_cast<double>(at_.pass) + part_of(s)) *
                                            static_cast<double>(stages_[s].stage->photons_per_pass()));
     p.work_seconds = at_.work_seconds;
+    p.whole = at_.pass > 0 || looks_ > 0;
     const double by_seconds = stop_seconds_ ? at_.work_seconds / *stop_seconds_ : 0,
                  by_passes = passes_ > 0 ? passes_with_part() / static_cast<double>(passes_) : 0;
     p.fraction = finished() ? 1 : std::min(std::max(by_seconds, by_passes), 1.0);
@@ -149,9 +137,8 @@ public:
       if (stages_[s].caustics() && std::exchange(has_caustics, true)) continue;
       add(stages_[s].layer, stages_[s].caustics() ? caustics() : seen(s), *picture);
     }
-    if (!smoothings_.empty()) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
+    if (smoothing_) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
     snapshot.picture = std::move(picture);
-    snapshot.whole = at_.pass > 0 || looks_ > 0;
     snapshot.progress = progress();
     const double rounds = photon_rounds() - at_.energy_from;
     Energy energy{balance_of(outcome_watts(world_.energy.read(), world_.tables.energy_scale, rounds)), {}};
@@ -174,7 +161,7 @@ public:
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (!stages_[s].stage->add_spectrum(at_.pass, s < at_.stage, *spectrum))
         spectrum->notes.push_back(fmt::format("Without the layer \"{}\", of which no spectrum is kept.", stages_[s].stage->name()));
-    if (!smoothings_.empty()) spectrum->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
+    if (smoothing_) spectrum->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
     return spectrum;
   }
 
@@ -204,7 +191,7 @@ public:
   void set_estimate(std::vector<float> caustics) override { estimate_ = std::move(caustics); }
   void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate) override
   {
-    if (!smoothings_.empty()) smoothings_.back().smoothing.spread(rgb, error_draw, {estimate, direct_noise});
+    if (smoothing_) smoothing_->pixels().spread(rgb, error_draw, {estimate, direct_noise});
   }
   void set_white(double white) override { world_.white = white; }
   std::int64_t rounds() const override { return static_cast<std::int64_t>(photon_rounds()); }
@@ -306,11 +293,6 @@ private:
                     compute::Buffer(world_.context, "blocks of glass", glass)};
   }
 
-  Smoothing& smoothing_of(const Blocks& blocks)
-  {
-    return std::ranges::find(smoothings_, blocks.edge, [](const SmoothingOfBlocks& of) { return of.blocks.edge; })->smoothing;
-  }
-
   /// Of a first picture: as a stage has seen it, smoothed, of [pixel][3].
   Noisy first_seen(std::size_t stage)
   {
@@ -318,9 +300,10 @@ private:
     job::Picture picture = black_blocks(first);
     stages_[stage].stage->develop_first(picture);
     if (picture.layers.empty()) return {};
-    Noisy blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
-    if (!smoothings_.empty()) timed([&] { smoothing_of(first).spread(blocks.rgb, blocks.draw); });
-    return between_blocks(first, blocks);
+    Noisy blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, pixels;
+    if (!smoothing_) return between(first, blocks);
+    timed([&] { pixels = smoothing_->pixels_of(first, std::move(blocks)); });
+    return pixels;
   }
 
   /// The layer of a stage of no caustics.
@@ -337,8 +320,8 @@ private:
       for (std::size_t i = 0; i < layer.rgb.size(); ++i)
         if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = first.rgb[i];
       layer.draw = std::move(first.draw);
-    } else if (!smoothings_.empty() && smooths_seen_ && has_halves(stage)) {
-      timed([&] { smoothings_.back().smoothing.spread(layer.rgb, layer.draw); });
+    } else if (smoothing_ && smooths_seen_ && has_halves(stage)) {
+      timed([&] { smoothing_->pixels().spread(layer.rgb, layer.draw); });
     }
     return layer;
   }
@@ -346,7 +329,7 @@ private:
   /// The layer of all stages of caustics.
   Noisy caustics()
   {
-    const auto is_shown = [&](std::size_t s) { return stages_[s].caustics() && (smoothings_.empty() || has_halves(s)); };
+    const auto is_shown = [&](std::size_t s) { return stages_[s].caustics() && (!smoothing_ || has_halves(s)); };
     Noisy first; // of photon maps, which come after all photons of a pass; until then glass shows what is known otherwise
     bool lacks_maps = false;
     for (std::size_t s = 0; s < stages_.size(); ++s)
@@ -361,74 +344,13 @@ private:
     Noisy layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
     for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
       if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
-    if (!smoothings_.empty() && !layer.draw.empty()) timed([&] { smooth(layer); });
+    if (smoothing_ && !layer.draw.empty()) timed([&] { smoothing_->spread(layer, {estimate_, caustic_noise}); });
     if (!first.rgb.empty()) std::ranges::transform(layer.rgb, first.rgb, layer.rgb.begin(), std::plus());
     if (!first.draw.empty() && !layer.draw.empty()) std::ranges::transform(layer.draw, first.draw, layer.draw.begin(), std::plus());
     return layer;
   }
 
-  /// Spreads caustics in blocks so large that their noise needs no wide kernels: that is faster, and reaches farther.
-  void smooth(Noisy& caustics)
-  {
-    auto by = smoothings_.end() - 1;
-    if (smoothings_.size() > 1) {
-      const Blocks blocks = blocks_of(first_edges_[0]);
-      const double needed = pixels_needed(mean_of_blocks(blocks, caustics), blocks);
-      while (by != smoothings_.begin() && needed / by->blocks.edge / by->blocks.edge > most_needed) --by;
-    }
-    if (by->blocks.edge == 1) return by->smoothing.spread(caustics.rgb, caustics.draw, {estimate_, caustic_noise});
-    Noisy blocks = mean_of_blocks(by->blocks, caustics);
-    by->smoothing.spread(blocks.rgb, blocks.draw);
-    Noisy spread = between_blocks(by->blocks, blocks);
-    if (by->blocks.edge < first_edges_[0]) keep_fine(std::move(caustics), spread); // in larger ones the pixels hold next to nothing
-    caustics = std::move(spread);
-  }
-
   Blocks blocks_of(int edge) const { return {world_.tables.camera.width, world_.tables.camera.height, edge}; }
-
-  /// The pixels that a kernel of single ones would need, in the mean of all light.
-  static double pixels_needed(const Noisy& layer, const Blocks& blocks)
-  {
-    const std::vector<double> light = light_of(layer.rgb), portion = Smoothing::portions(light, layer.draw, blocks.across(), blocks.down());
-    double needed = 0, all = 0;
-    for (std::size_t i = 0; i < light.size(); ++i) {
-      needed += std::max(portion[i] / (Smoothing::noise * Smoothing::noise), light[i]);
-      all += light[i];
-    }
-    return all > 0 ? needed / all * blocks.edge * blocks.edge : 1;
-  }
-
-  /// Mixes the plain layer into the one that was spread in blocks, where that is the better.
-  void keep_fine(Noisy plain, Noisy& spread) const
-  {
-    const int width = world_.tables.camera.width, height = world_.tables.camera.height;
-    const std::vector<double> light = light_of(plain.rgb), portion = Smoothing::portions(light, plain.draw, width, height),
-                              light_spread = light_of(spread.rgb);
-    // Where few portions fell, or none, their noise cannot be told: there nothing speaks for the plain layer.
-    constexpr double least_portions = 16, around = 15 * 15; // pixels
-    for (std::size_t i = 0; i < light.size(); ++i)
-      if (portion[i] <= 0 || light_spread[i] * around < least_portions * portion[i])
-        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) plain.rgb[c] = spread.rgb[c], plain.draw[c] = spread.draw[c];
-    mix(plain.rgb, plain.draw, {plain.rgb, plain.draw}, light, width, height, spread.rgb, spread.draw);
-  }
-
-  /// Of R, G and B.
-  static std::vector<double> light_of(const std::vector<float>& rgb)
-  {
-    std::vector<double> light(rgb.size() / 3);
-    for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
-    return light;
-  }
-
-  static Noisy mean_of_blocks(const Blocks& blocks, const Noisy& layer)
-  {
-    return {photons::mean_of_blocks(blocks, layer.rgb), photons::mean_of_blocks(blocks, layer.draw)};
-  }
-
-  static Noisy between_blocks(const Blocks& blocks, const Noisy& layer)
-  {
-    return {photons::between_blocks(blocks, layer.rgb), layer.draw.empty() ? layer.draw : photons::between_blocks(blocks, layer.draw)};
-  }
 
   /// As black(), with a pixel for each block.
   job::Picture black_blocks(const Blocks& blocks) const
@@ -483,13 +405,9 @@ private:
   std::size_t looks_ = 0;        ///< first pictures so far
   bool smooths_seen_ = false;    ///< what paths from the eye see of lights, as well as caustics
   bool shares_work_ = false;     ///< whether time is dealt out by what it gains
-  struct SmoothingOfBlocks {
-    Blocks blocks;
-    Smoothing smoothing;
-  };
-  std::vector<SmoothingOfBlocks> smoothings_; ///< from the first picture's blocks to single pixels; or none
-  std::vector<float> estimate_;               ///< Run::set_estimate
-  double smoothing_seconds_ = 0;              ///< of all pictures since the program began; no work of the run's
+  std::optional<BlockSmoothing> smoothing_;
+  std::vector<float> estimate_;  ///< Run::set_estimate
+  double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's
   std::optional<double> stop_seconds_;
   std::int64_t passes_ = -1; ///< -1: until stop_seconds_, or until whoever steps it has enough
   std::vector<TimedStage> stages_;

@@ -130,14 +130,6 @@ void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std
   }
 }
 
-/// Of R, G and B.
-std::vector<double> light_of(std::span<const float> rgb)
-{
-  std::vector<double> light(rgb.size() / 3);
-  for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
-  return light;
-}
-
 /// How much of each pixel's light is for the better spread, 0..1. Of the picture m = truth + noise, spreading makes m + r, and of a share s
 /// of its light m + s r. The square of its error is larger than that of m by
 ///
@@ -308,6 +300,29 @@ void to_means(const Seeing& at, std::span<const Kernel> kernels, std::span<const
 
 } // namespace
 
+std::vector<double> light_of(std::span<const float> rgb)
+{
+  std::vector<double> light(rgb.size() / 3);
+  for (std::size_t i = 0; i < rgb.size(); ++i) light[i / 3] += std::max(static_cast<double>(rgb[i]), 0.0) / 3;
+  return light;
+}
+
+std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height)
+{
+  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
+  const SummedArea variances(width, height, [&](std::size_t i) {
+    const double r = error_draw[3 * i], g = error_draw[3 * i + 1], b = error_draw[3 * i + 2];
+    return (r * r + g * g + b * b) / 3;
+  });
+  std::vector<double> portion(light.size());
+  for (std::size_t i = 0; i < portion.size(); ++i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    const double near = lights.mean(x, y, noise_reach);
+    portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_reach), 0.0) / near : 0;
+  }
+  return portion;
+}
+
 std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   scene::Scene seen = scene;
@@ -350,22 +365,6 @@ void Smoothing::look()
         if (j == i || are_level(seen[i], seen[j])) level_[i][number / 64] |= std::uint64_t{1} << (number % 64);
       }
   });
-}
-
-std::vector<double> Smoothing::portions(std::span<const double> light, std::span<const float> error_draw, int width, int height)
-{
-  const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
-  const SummedArea variances(width, height, [&](std::size_t i) {
-    const double r = error_draw[3 * i], g = error_draw[3 * i + 1], b = error_draw[3 * i + 2];
-    return (r * r + g * g + b * b) / 3;
-  });
-  std::vector<double> portion(light.size());
-  for (std::size_t i = 0; i < portion.size(); ++i) {
-    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    const double near = lights.mean(x, y, noise_reach);
-    portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_reach), 0.0) / near : 0;
-  }
-  return portion;
 }
 
 std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)

@@ -17,6 +17,12 @@
 
 namespace nephroid::photons {
 
+/// rgb: [pixel][3]. The mean of R, G and B, at least 0 each.
+std::vector<double> light_of(std::span<const float> rgb);
+
+/// Variance over light around each pixel, means of R, G and B: of light that comes in equal portions, one portion. 0 in the dark.
+std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height);
+
 class Smoothing {
 public:
   /// everywhere: light is spread as far as its noise asks for; where_it_helps: only as much of it as the halves say is for the better.
@@ -45,9 +51,6 @@ public:
   /// it keeps what is looked at.
   Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
   void look();
-
-  /// Variance over light around each pixel, means of R, G and B: of light that comes in equal portions, one portion. 0 in the dark.
-  static std::vector<double> portions(std::span<const double> light, std::span<const float> error_draw, int width, int height);
 
   /// What it takes at most, in bytes.
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);

@@ -60,7 +60,8 @@ public:
             .step = done_,
             .steps = runs_.steps,
             .work = 1000 * static_cast<std::uint64_t>(done_),
-            .work_seconds = 0.002 * done_};
+            .work_seconds = 0.002 * done_,
+            .whole = done_ >= runs_.whole_from};
   }
   job::Snapshot snapshot() override
   {
@@ -71,8 +72,7 @@ public:
     for (std::size_t i = 0; i < pixels; ++i)
       for (double c : preset_.scene.camera.position) picture->rgb.push_back(static_cast<float>(c));
     picture->layers = {{"direct", picture->rgb}};
-    job::Snapshot made{
-        .picture = picture, .whole = done_ >= runs_.whole_from, .progress = progress(), .phases = {{"photons", 0.002 * done_}}};
+    job::Snapshot made{.picture = picture, .progress = progress(), .phases = {{"photons", 0.002 * done_}}};
     if (!preset_.scene.lights.empty())
       made.scalars.push_back({"energy", "emitted_w", preset_.scene.lights[0].power_w}); // tells which light it is of
     made.files = runs_.files;

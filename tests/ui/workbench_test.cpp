@@ -57,8 +57,10 @@ TEST_F(WorkbenchTest, AnEditStartsANewRunAndKeepsTheOldPictureUntilThen)
   EXPECT_EQ(runs.made, 1);
   EXPECT_EQ(picture_z(), 4) << "the last image stays";
   EXPECT_FALSE(workbench.run().snapshot_is_current());
+  EXPECT_TRUE(workbench.run().snapshot_is_previous()) << "and is marked";
   ASSERT_TRUE(shows_z(2));
   EXPECT_TRUE(workbench.run().snapshot_is_current());
+  EXPECT_FALSE(workbench.run().snapshot_is_previous());
   EXPECT_EQ(runs.made, 2);
 }
 
@@ -83,15 +85,15 @@ TEST_F(WorkbenchTest, PartsOfAPictureHideAWholeOneOnlyWhereTheRunIsSlow)
   runs.step_ms = 20; // a snapshot after the first step, and then each 100 ms
   open();
   ASSERT_TRUE(shows_z(4));
-  EXPECT_FALSE(workbench.run().snapshot()->whole) << "parts are better than nothing";
+  EXPECT_FALSE(workbench.run().snapshot()->progress.whole) << "parts are better than nothing";
   ASSERT_TRUE(until(job::State::finished));
   edit_z(2);
   ASSERT_TRUE(shows_z(2));
-  EXPECT_TRUE(workbench.run().snapshot()->whole);
+  EXPECT_TRUE(workbench.run().snapshot()->progress.whole);
   runs.whole_from = runs.steps = 100000;
   edit_z(3);
   ASSERT_TRUE(shows_z(3));
-  EXPECT_FALSE(workbench.run().snapshot()->whole) << "what there is of it after a second";
+  EXPECT_FALSE(workbench.run().snapshot()->progress.whole) << "what there is of it after a second";
 }
 
 TEST_F(WorkbenchTest, AnEditReplacesARunningJob)

@@ -32,7 +32,7 @@ preset::Preset lit_ball(Effort effort)
   return p;
 }
 
-/// [light][cluster] photons of a pass.
+/// [light][cluster] photons of a round.
 std::vector<std::vector<double>> dealt(const RunTables& tables)
 {
   std::vector<std::vector<double>> counts(tables.lights.size(), std::vector<double>(tables.wavelengths.clusters.size(), 0));
@@ -52,7 +52,7 @@ double candle_part(const RunTables& tables, std::size_t cluster)
 double photons_for(double part, const RunTables& tables)
 {
   const auto emitters = static_cast<double>(tables.emitters.size());
-  return 1 + (photons - emitters) * part;
+  return 1 + (tables.photons_per_round - emitters) * part;
 }
 
 void expect_clusters_in_proportion(const RunTables& tables, const std::vector<double>& importance)
@@ -64,7 +64,7 @@ void expect_clusters_in_proportion(const RunTables& tables, const std::vector<do
     EXPECT_NEAR(counts[0][c], photons_for(part * (1 - candle), tables), 1) << c;
     EXPECT_NEAR(counts[1][c], photons_for(part * candle, tables), 1) << c;
   }
-  EXPECT_EQ(tables.photons_per_round, photons);
+  EXPECT_EQ(tables.photons_per_pass(), photons);
 }
 
 TEST(DealtEffort, EqualGivesEveryClusterTheSame)

@@ -92,6 +92,8 @@ public:
   const std::shared_ptr<const job::Snapshot>& snapshot() const { return snapshot_; }
   /// Whether snapshot() is of the preset as it is now.
   bool snapshot_is_current() const { return snapshot_is_current_; }
+  /// Whether snapshot() is of what came before the run in hand, which has shown nothing yet.
+  bool snapshot_is_previous() const { return snapshot_ && (lent_ ? !shown_since_start_ : !snapshot_is_current_); }
   /// Of the pixel that is watched, as of snapshot() or a little newer; null where there is none.
   const std::shared_ptr<const job::PixelSpectrum>& spectrum() const { return spectrum_; }
   /// Of the run that snapshot() is of: "Ball lens: distance of the camera", the preset and the newest edit.

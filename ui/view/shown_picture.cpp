@@ -95,6 +95,7 @@ ShownPicture shown_picture(const Context& context)
     if (const std::string why = context.comparing.why_no_picture(); !why.empty())
       shown.hint = fmt::format("Nothing to show: {}. Choose above, or go on with L.", why);
     shown.label = snapshot->caption.empty() ? comparison.layer : snapshot->caption;
+    if (context.run.snapshot_is_previous()) shown.label = "Previous picture" + (shown.label.empty() ? "" : ": " + shown.label);
   } else if (const HeldPicture other = context.comparing.other_picture(); !other.owner)
     shown.hint = "Nothing to compare with: " + context.comparing.why_not();
   else if (comparison.flip) {

@@ -112,12 +112,11 @@ public:
                          {"per_iteration_after", per_iteration(before)}});
     }
     const std::vector<float> xyz = sums.read();
-    job::Layer layer{"caustic", std::vector<float>(xyz.size())};
+    std::vector<float>& caustic = tracing::layer_of(picture, "caustic").rgb;
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
       const optics::Colour rgb = optics::xyz_to_linear_srgb({xyz[i] / world_.white, xyz[i + 1] / world_.white, xyz[i + 2] / world_.white});
-      for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] = static_cast<float>(rgb[c]);
+      for (std::size_t c = 0; c < 3; ++c) caustic[i + c] += static_cast<float>(rgb[c]);
     }
-    picture.layers.push_back(std::move(layer));
     picture.error_draw.clear(); // there are no two halves: what a radius has become hangs on all photons
   }
 

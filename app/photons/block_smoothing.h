@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smoothing in blocks of pixels: what few photons have shown is spread farther and sooner than pixel by pixel.
+#pragma once
+#include "photons/coarse.h"
+#include "photons/smoothing.h"
+
+#include <span>
+#include <vector>
+
+namespace nephroid::photons {
+
+/// A layer with a draw of its error (job::Picture::error_draw), which is empty where it is not known; both of [pixel][3].
+struct Noisy {
+  std::vector<float> rgb, draw;
+};
+
+/// layer: with a value for each block. With one for each pixel, as between_blocks().
+Noisy between(const Blocks& blocks, const Noisy& layer);
+
+class BlockSmoothing {
+public:
+  /// first_edge: of the blocks of a run's first picture; 1 where it has none, and light is spread from pixel to pixel only.
+  BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_edge);
+
+  /// From pixel to pixel.
+  Smoothing& pixels() { return levels_.back().smoothing; }
+  /// blocks: those of a first picture, whose `layer` has a value for each. The layer of pixels, smoothed.
+  Noisy pixels_of(const Blocks& blocks, Noisy layer);
+  /// Spreads caustics in blocks so large that their noise needs no wide kernels. known: as far as pixel for pixel is enough.
+  void spread(Noisy& caustics, const Smoothing::Known& known);
+
+private:
+  /// Mixes the plain layer into the one that was spread in blocks, where that is the better.
+  void keep_fine(Noisy plain, Noisy& spread) const;
+
+  struct Level {
+    Blocks blocks;
+    Smoothing smoothing;
+  };
+  std::vector<Level> levels_; ///< from twice first_edge to single pixels, each with half the edge of that before
+  Blocks first_;
+};
+
+} // namespace nephroid::photons

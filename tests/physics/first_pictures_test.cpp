@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run shows before its first pass is done: whole pictures, each better than the one before.
+#include "measure/metrics.h"
+#include "spectral/engine.h"
+#include "tests/support/render.h"
+
+namespace nephroid::first_pictures_test {
+
+constexpr int size = 192;
+
+/// A ball of glass over a floor, which shows its caustic directly and through the ball.
+preset::Preset seen_through_glass()
+{
+  preset::Preset p = test::ball_over_floor();
+  p.scene.camera.position = {0, 1, 4};
+  p.scene.camera.target = {0, -0.5, 0};
+  p.scene.camera.resolution = {size, size};
+  p.scene.lights[0].position = {1, 3, 1};
+  p.scene.objects[0].normals = preset::Object::Normals::smooth;
+  p.stop.passes = 3;
+  return p;
+}
+
+double error_of(const job::Picture& picture, const job::Picture& truth)
+{
+  return measure::compare({picture.width, picture.height, picture.rgb, "picture"}, {size, size, truth.rgb, "truth"}).rel_l2;
+}
+
+TEST(FirstPictures, AreWholeAndGetBetter)
+{
+  preset::Preset p = seen_through_glass(), long_run = p;
+  long_run.stop.passes = 100;
+  long_run.seed = 77;
+  spectral::settings(long_run).smoothing = photons::Settings::Smoothing::off;
+  const job::Snapshot truth = test::render_as_it_is(long_run);
+  const auto job = test::job_as_it_is(p);
+  std::vector<double> errors;
+  for (int look = 0; look < 2; ++look) {
+    job->step();
+    const job::Snapshot first = job->snapshot();
+    EXPECT_TRUE(first.progress.whole);
+    EXPECT_EQ(first.progress.step, 0);
+    EXPECT_LT(first.progress.work, 60'000u) << "of 262,144 photons";
+    errors.push_back(error_of(*first.picture, *truth.picture));
+  }
+  while (job->progress().step < 1) job->step();
+  errors.push_back(error_of(*job->snapshot().picture, *truth.picture));
+  errors.push_back(error_of(*test::render(*job).picture, *truth.picture));
+  for (std::size_t i = 1; i < errors.size(); ++i) EXPECT_LT(errors[i], errors[i - 1]) << i;
+  EXPECT_LT(errors[0], 0.6);
+  RecordProperty("rel_l2 of both first pictures, of one pass, of three", testing::PrintToString(errors));
+}
+
+// Where the camera sees the sky alone, there is nothing but that; where photons_per_pass is small, no round of photons is to spare.
+TEST(FirstPictures, ARunMayHaveNoPhotonsForThem)
+{
+  preset::Preset p = seen_through_glass();
+  spectral::settings(p).photons_per_pass = 1024;
+  const auto job = test::job_as_it_is(p);
+  job->step();
+  EXPECT_TRUE(job->snapshot().progress.whole);
+  EXPECT_EQ(job->progress().work, 0u);
+}
+
+} // namespace nephroid::first_pictures_test
