@@ -92,10 +92,10 @@ public:
 
   void step() override
   {
-    const auto begin = Clock::now();
     if (looks_ < first_edges_.size()) return look();
     if (at_.pass == 1 && at_.stage == 0 && !at_.part_of_pass && smooths_seen_ && smoothing_)
       timed([&] { smoothing_->pixels().look(); }); // before a picture waits for it
+    const auto begin = Clock::now();
     if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 4 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
     TimedStage& now = stages_[at_.stage];
@@ -252,11 +252,12 @@ private:
   }
 
   /// A black picture without layers, with room for a draw of its error where films have halves.
-  job::Picture black() const
+  job::Picture black() const { return black(blocks_of(1)); }
+  job::Picture black(const Blocks& blocks) const
   {
     job::Picture picture;
-    picture.width = world_.tables.camera.width;
-    picture.height = world_.tables.camera.height;
+    picture.width = blocks.across();
+    picture.height = blocks.down();
     picture.rgb.assign(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 0.0f);
     if (!stages_.empty() && world_.halves == 2) picture.error_draw = picture.rgb;
     return picture;
@@ -297,7 +298,7 @@ private:
   Noisy first_seen(std::size_t stage)
   {
     const Blocks& first = world_.first.blocks;
-    job::Picture picture = black_blocks(first);
+    job::Picture picture = black(first);
     stages_[stage].stage->develop_first(picture);
     if (picture.layers.empty()) return {};
     Noisy blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, pixels;
@@ -311,7 +312,8 @@ private:
   {
     Stage& of = *stages_[stage].stage;
     const bool whole = at_.pass > 0 || stage < at_.stage;
-    Noisy first = looks_ > 0 && !has_halves(stage) ? first_seen(stage) : Noisy();
+    const bool wants_first = looks_ > 0 && !has_halves(stage) && (!whole || smoothing_);
+    Noisy first = wants_first ? first_seen(stage) : Noisy();
     if (!first.rgb.empty() && !whole) return first;
     job::Picture picture = black();
     of.develop(at_.pass, stage < at_.stage, picture);
@@ -351,17 +353,6 @@ private:
   }
 
   Blocks blocks_of(int edge) const { return {world_.tables.camera.width, world_.tables.camera.height, edge}; }
-
-  /// As black(), with a pixel for each block.
-  job::Picture black_blocks(const Blocks& blocks) const
-  {
-    job::Picture picture;
-    picture.width = blocks.across();
-    picture.height = blocks.down();
-    picture.rgb.assign(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 0.0f);
-    if (world_.halves == 2) picture.error_draw = picture.rgb;
-    return picture;
-  }
 
   static void add(const char* name, Noisy layer, job::Picture& picture)
   {
