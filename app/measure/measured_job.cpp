@@ -134,6 +134,7 @@ public:
   job::Snapshot snapshot() override
   {
     job::Snapshot snapshot = job_->snapshot();
+    if (may_note(snapshot.progress)) note(snapshot);
     snapshot.progress = progress();
     snapshot.history = history();
     return snapshot;
@@ -172,7 +173,7 @@ public:
     history_.rows.clear();
     history_.measuring_seconds = 0;
     if (job_->progress().work_seconds == 0) began_ = Clock::now(), wall_before_ = 0; // it begins anew
-    next_ = 0;
+    next_ = wanted_ = 0;
     last_seconds_ = 0;
     shown_.reset();
     show();
@@ -221,18 +222,34 @@ private:
   {
     const auto begin = Clock::now();
     const job::Snapshot snapshot = job_->snapshot();
+    history_.measuring_seconds += seconds_since(begin);
+    note(snapshot);
+  }
+
+  /// Whether a picture that somebody else asked for shall have a row: that costs little.
+  bool may_note(const job::Progress& progress) const
+  {
+    return !history_.columns.empty() && progress.whole && progress.work_seconds > last_seconds_ && progress.work_seconds >= wanted_ &&
+           progress.work_seconds >= (history_.measuring_seconds + noting_seconds_) / measuring_share;
+  }
+
+  /// Adds a row.
+  void note(const job::Snapshot& snapshot)
+  {
+    const auto begin = Clock::now();
     const job::Progress& progress = snapshot.progress;
     const bool tells = !snapshot.stands_in && (reference_ || !snapshot.picture->error_draw.empty());
     if (!tells) { // there is no picture of what was asked for yet, or nothing is known of its error
       last_seconds_ = progress.work_seconds;
-      next_ = spacing * last_seconds_;
+      next_ = wanted_ = spacing * last_seconds_;
       return;
     }
     job::HistoryRow row{progress.work_seconds, 0, progress.step, progress.work, errors_of(*snapshot.picture)};
     row.wall_seconds = wall_seconds();
     history_.rows.push_back(std::move(row));
     last_seconds_ = progress.work_seconds;
-    history_.measuring_seconds += seconds_since(begin);
+    noting_seconds_ = seconds_since(begin);
+    history_.measuring_seconds += noting_seconds_;
     plan_next();
     show();
   }
@@ -285,9 +302,9 @@ private:
   {
     const double one = history_.measuring_seconds / static_cast<double>(std::max<std::size_t>(history_.rows.size(), 1));
     const double affordable = (history_.measuring_seconds + one) / measuring_share;
-    double wanted = last_seconds_ * spacing;
-    if (const std::optional<double> at = target_seconds()) wanted = std::min(wanted, *at);
-    next_ = std::max(wanted, affordable);
+    wanted_ = last_seconds_ * spacing;
+    if (const std::optional<double> at = target_seconds()) wanted_ = std::min(wanted_, *at);
+    next_ = std::max(wanted_, affordable);
     if (const auto time = std::upper_bound(times_.begin(), times_.end(), last_seconds_); time != times_.end())
       next_ = std::min(next_, *time);
   }
@@ -301,9 +318,11 @@ private:
   std::shared_ptr<const job::History> shown_;
   std::vector<double> times_; ///< to measure at whatever it takes
   Clock::time_point began_;
-  double wall_before_ = 0;  ///< of a resumed run's earlier parts
-  double last_seconds_ = 0; ///< of work at the newest row
-  double next_ = 0;         ///< of work, when the next row is due
+  double wall_before_ = 0;    ///< of a resumed run's earlier parts
+  double last_seconds_ = 0;   ///< of work at the newest row
+  double next_ = 0;           ///< of work, when the next row is due
+  double wanted_ = 0;         ///< when it would be if measuring took no time
+  double noting_seconds_ = 0; ///< of the newest row, without the picture that it is of
 };
 
 } // namespace

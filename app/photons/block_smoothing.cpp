@@ -4,6 +4,8 @@
 #include "photons/mixture.h"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <utility>
 
 namespace nephroid::photons {
@@ -26,6 +28,15 @@ double pixels_needed(const Blocks& blocks, const Noisy& layer)
   return all > 0 ? needed / all * blocks.edge * blocks.edge : 1;
 }
 
+/// Adds to the draw of a layer in blocks what these hide of the picture: about as much as blocks twice as large hide of it.
+void add_hidden(const Blocks& blocks, Noisy& layer)
+{
+  const Blocks pairs{blocks.across(), blocks.down(), 2};
+  const std::vector<float> larger = between_blocks(pairs, mean_of_blocks(pairs, layer.rgb));
+  for (std::size_t i = 0; i < layer.draw.size(); ++i)
+    layer.draw[i] = std::copysign(std::hypot(layer.draw[i], layer.rgb[i] - larger[i]), layer.draw[i]);
+}
+
 } // namespace
 
 Noisy between(const Blocks& blocks, const Noisy& layer)
@@ -45,6 +56,7 @@ Noisy BlockSmoothing::pixels_of(const Blocks& blocks, Noisy layer)
 {
   const auto level = std::ranges::find(levels_, blocks.edge, [](const Level& of) { return of.blocks.edge; });
   level->smoothing.spread(layer.rgb, layer.draw);
+  add_hidden(blocks, layer);
   return between(blocks, layer);
 }
 
@@ -56,8 +68,14 @@ void BlockSmoothing::spread(Noisy& caustics, const Smoothing::Known& known)
     while (level != levels_.begin() && needed / level->blocks.edge / level->blocks.edge > most_needed) --level;
   }
   if (level->blocks.edge == 1) return level->smoothing.spread(caustics.rgb, caustics.draw, known);
-  Noisy spread = pixels_of(level->blocks, means(level->blocks, caustics));
-  if (level->blocks.edge < first_.edge) keep_fine(std::move(caustics), spread); // else the pixels hold next to nothing
+  Noisy blocks = means(level->blocks, caustics);
+  if (level->blocks.edge >= first_.edge) { // the pixels hold next to nothing
+    caustics = pixels_of(level->blocks, std::move(blocks));
+    return;
+  }
+  level->smoothing.spread(blocks.rgb, blocks.draw);
+  Noisy spread = between(level->blocks, blocks);
+  keep_fine(std::move(caustics), spread);
   caustics = std::move(spread);
 }
 
