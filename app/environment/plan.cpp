@@ -92,8 +92,7 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
   const scene::Scene& s = *render.scene;
   const std::uint64_t sky = s.environment ? tracing::bytes_of(s.environment->rgb) : 0;
   return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), settings.technique)},
-          {"whole scene", tracing::tree_bytes(*render.bvh) + tracing::bytes_of(s.geometry.triangles) +
-                              tracing::bytes_of(s.geometry.positions) + tracing::bytes_of(s.geometry.normals)},
+          {"whole scene", tracing::tree_bytes(*render.bvh) + tracing::surface_bytes(s)},
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
           {"receivers", Renderer::receiver_bytes()},
           {"paths of the view", Renderer::bytes_a_pixel(render) * s.camera.pixels()},
@@ -105,7 +104,7 @@ std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::S
 {
   const std::uint64_t tree = tracing::tree_bytes(task.bvh), object = tracing::surface_bytes(task.caster.scene),
                       sums = task.film_bytes() / task.radii.size();
-  std::vector<plan::PlannedBuffer> list{{"scene (host)", tracing::surface_bytes(scene) + tree + object, true},
+  std::vector<plan::PlannedBuffer> list{{"scene (host)", tracing::mesh_bytes(scene) + tree + tracing::mesh_bytes(task.caster.scene), true},
                                         {"caustic spheres (host)", task.bytes(), true},
                                         {"pictures of spheres (host)", picture_bytes(task), true}};
   if (!bakes) return list;

@@ -29,7 +29,7 @@ PlanPart plan_scene(const PlanInput& input)
   const std::uint64_t tree = tracing::tree_bytes(input.bvh), triangles = tracing::surface_bytes(input.scene),
                       environment = input.scene.environment ? tracing::bytes_of(input.scene.environment->rgb) : 0;
   PlanPart part;
-  part.buffers = {{"scene (host)", tree + triangles + environment + bytes_of_sky(input), true},
+  part.buffers = {{"scene (host)", tree + tracing::mesh_bytes(input.scene) + environment + bytes_of_sky(input), true},
                   {"tree", tree},
                   {"triangles", triangles},
                   {"wavelength tables", tracing::bytes_of(w.index_of_cluster) + tracing::bytes_of(w.index_of_wavelength) +

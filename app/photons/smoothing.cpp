@@ -370,7 +370,7 @@ void Smoothing::look()
 std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
-  return tracing::tree_bytes(bvh) + tracing::surface_bytes(scene) +
+  return tracing::tree_bytes(bvh) + tracing::mesh_bytes(scene) +
          (sizeof(Sight) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
 }
 

@@ -162,7 +162,7 @@ void set_box(float* child, const Box& box)
 /// Lays Embree's nodes out in the kernel's format, depth first.
 class Layout {
 public:
-  Layout(const Mesh& mesh, Bvh& bvh) : mesh_(mesh), bvh_(bvh) { bvh.ellipsoid_places.resize(mesh.ellipsoids.size()); }
+  Layout(const Mesh& mesh, Bvh& bvh) : mesh_(mesh), bvh_(bvh) { bvh.has_ellipsoids = !mesh.ellipsoids.empty(); }
 
   /// What a parent's child entry holds; adds the subtree's depth and stack entries to those of its ancestors.
   int add(const BuildNode& node, int depth, int stack)
@@ -208,9 +208,7 @@ private:
       const std::uint32_t primitive = missing ? ~0u : ellipsoids[i];
       std::memcpy(bvh_.blocks.data() + place + 12, &primitive, sizeof primitive);
       if (missing) continue;
-      const std::size_t number = primitive - mesh_.triangles.size();
-      bvh_.ellipsoid_places[number] = static_cast<std::uint32_t>(place);
-      set_ellipsoid(bvh_.blocks.data() + place, mesh_.ellipsoids[number]);
+      set_ellipsoid(bvh_.blocks.data() + place, mesh_.ellipsoids[primitive - mesh_.triangles.size()]);
     }
   }
 
@@ -275,9 +273,9 @@ struct BvhRelease {
 std::map<std::string, std::string> tree_defines(const Bvh& bvh)
 {
   // Ellipsoids in one leaf have kernels of their own; other trees come in few sizes.
-  const bool one_leaf = bvh.stack <= 1 && !bvh.ellipsoid_places.empty();
+  const bool one_leaf = bvh.stack <= 1 && bvh.has_ellipsoids;
   const int stack = one_leaf ? 1 : std::max(1, (bvh.stack + 31) / 32) * 32;
-  return {{"NEPHROID_ELLIPSOIDS", bvh.ellipsoid_places.empty() ? "0" : "1"}, {"NEPHROID_BVH_STACK", std::to_string(stack)}};
+  return {{"NEPHROID_ELLIPSOIDS", bvh.has_ellipsoids ? "1" : "0"}, {"NEPHROID_BVH_STACK", std::to_string(stack)}};
 }
 
 Bvh build_bvh(const Mesh& mesh)

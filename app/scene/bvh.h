@@ -18,12 +18,12 @@ inline constexpr std::size_t children_per_node = 8, triangles_per_block = 4, ell
 
 /// Layout is fixed by kernels/tracing/bvh.h, which has the description.
 struct Bvh {
-  std::vector<float> nodes;                    ///< 64 floats a node; at least one node
-  std::vector<float> blocks;                   ///< 40 floats a block
-  std::vector<std::uint32_t> ellipsoid_places; ///< of each ellipsoid's first float in blocks
-  int root = 0;                                ///< node index, or ~leaf
-  int depth = 0;                               ///< nodes on the longest way from the root to a leaf
-  int stack = 0;                               ///< what -DNEPHROID_BVH_STACK must be at least: entries that a traversal can need at once
+  std::vector<float> nodes;  ///< 64 floats a node; at least one node
+  std::vector<float> blocks; ///< 40 floats a block
+  bool has_ellipsoids = false;
+  int root = 0;  ///< node index, or ~leaf
+  int depth = 0; ///< nodes on the longest way from the root to a leaf
+  int stack = 0; ///< what -DNEPHROID_BVH_STACK must be at least: entries that a traversal can need at once
 };
 
 /// The -D flags of kernels that go through it. An object that moves changes the tree, but hardly ever these: a kernel takes a second to

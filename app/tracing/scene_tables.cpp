@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracing/scene_tables.h"
 
+#include "base/parallel.h"
 #include "tracing/omissions.h"
 #include "tracing/scales.h"
 #include "tracing/targets.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -113,7 +115,66 @@ Flux flux_by_rows(const scene::Environment& environment)
   return flux;
 }
 
+/// A number of the object and its primitive's kind, as a kernel finds them in a w.
+float tag(int object, int kind) { return std::bit_cast<float>(object << 2 | kind); }
+
+shared::float4 with(const glm::vec3& v, float w) { return {v.x, v.y, v.z, w}; }
+
+/// Two words of 21 bits a coordinate, in units of 2^-20: the lowest bits are x, then come y and z.
+std::array<float, 2> packed_normal(const glm::vec3& normal)
+{
+  constexpr float unit = 0x1p20f;
+  const glm::uvec3 q(glm::ivec3(glm::clamp(glm::round(normal * unit), -unit, unit - 1)) & 0x1fffff);
+  return {std::bit_cast<float>(q.x | q.y << 21), std::bit_cast<float>(q.y >> 11 | q.z << 10)};
+}
+
+float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+shared::DevicePrimitive device_triangle(const scene::Mesh& mesh, const glm::uvec3& triangle, int object, bool smooth)
+{
+  const glm::vec3 a = mesh.positions[triangle.x], ab = mesh.positions[triangle.y] - a, ac = mesh.positions[triangle.z] - a;
+  if (smooth) {
+    const auto first = packed_normal(mesh.normals[triangle.x]), second = packed_normal(mesh.normals[triangle.y]),
+               third = packed_normal(mesh.normals[triangle.z]);
+    return {with(a, tag(object, PRIMITIVE_SMOOTH)), with(ab, third[0]), with(ac, third[1]), {first[0], first[1], second[0], second[1]}};
+  }
+  const glm::vec3 normal(glm::normalize(glm::cross(glm::dvec3(ab), glm::dvec3(ac))));
+  // As triangle_offset of kernels/tracing/surface.h.
+  const float offset = 0x1p-21f * largest(glm::max(glm::abs(a), glm::max(glm::abs(ab), glm::abs(ac))));
+  return {with(a, tag(object, PRIMITIVE_FLAT)), with(ab, 0), with(ac, 0), with(normal, offset)};
+}
+
+shared::DevicePrimitive device_ellipsoid(const scene::Ellipsoid& ellipsoid, int object)
+{
+  const auto rows = scene::to_unit_sphere(ellipsoid);
+  const int kind = ellipsoid.inwards ? PRIMITIVE_ELLIPSOID_INWARDS : PRIMITIVE_ELLIPSOID;
+  return {with(ellipsoid.centre, tag(object, kind)), to_float4(rows[0]), to_float4(rows[1]), to_float4(rows[2])};
+}
+
 } // namespace
+
+std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene)
+{
+  const scene::Mesh& mesh = scene.geometry;
+  std::vector<shared::DevicePrimitive> primitives(scene.object_of_primitive.size());
+  for_ranges(primitives.size(), 1 << 14, [&](std::size_t, Range range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      const auto object = static_cast<int>(scene.object_of_primitive[i]);
+      primitives[i] = i < mesh.triangles.size()
+                          ? device_triangle(mesh, mesh.triangles[i], object, scene.objects[scene.object_of_primitive[i]].smooth)
+                          : device_ellipsoid(mesh.ellipsoids[i - mesh.triangles.size()], object);
+    }
+  });
+  return primitives;
+}
+
+std::uint64_t surface_bytes(const scene::Scene& scene) { return scene.object_of_primitive.size() * sizeof(shared::DevicePrimitive); }
+
+std::uint64_t mesh_bytes(const scene::Scene& scene)
+{
+  const scene::Mesh& mesh = scene.geometry;
+  return bytes_of(mesh.triangles) + bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(scene.object_of_primitive);
+}
 
 shared::DeviceBackground picture_size(const scene::Environment& environment)
 {
@@ -179,7 +240,7 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   const std::vector<bool> lit = leave_out.unlit_wavelengths ? lit_wavelengths(scene) : std::vector<bool>(optics::wavelength_count, true);
   tables.wavelengths = make_wavelength_tables(scene, lights, clusters, lit, tables.materials);
   tables.stretch = make_stretch_tables(scene, clusters, lit);
-  for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority, object.smooth ? 1 : 0, 0});
+  for (const scene::Object& object : scene.objects) tables.objects.push_back({object.material, object.priority});
   tables.spheres = scene_targets(leave_out, scene);
   for (const scene::Light* light : lights) {
     add_light(*light, tables.spheres, scene, leave_out, tables);

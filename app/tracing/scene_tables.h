@@ -72,6 +72,16 @@ int device_light_type(const scene::Light& light);
 /// MEDIA_DEPTH dielectrics.
 SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const LeaveOut& leave_out);
 
+/// The triangles, then the ellipsoids.
+std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene);
+
+/// What a table takes in bytes.
+std::uint64_t bytes_of(const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); }
+
+/// Bytes of a scene's surfaces on the device, and on the host.
+std::uint64_t surface_bytes(const scene::Scene& scene);
+std::uint64_t mesh_bytes(const scene::Scene& scene);
+
 /// Where texels are looked up: of what is seen, too.
 shared::DeviceBackground picture_size(const scene::Environment& environment);
 

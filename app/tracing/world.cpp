@@ -2,42 +2,14 @@
 #include "tracing/world.h"
 
 namespace nephroid::tracing {
-namespace {
-
-/// glm vectors of three floats or unsigned are three plain numbers in a row.
-template <class T, class V>
-compute::Buffer<T> upload_triples(const compute::Context& context, const char* name, const std::vector<V>& items)
-{
-  static_assert(sizeof(V) == 3 * sizeof(T));
-  return compute::Buffer<T>(context, name, std::span<const T>(reinterpret_cast<const T*>(items.data()), 3 * items.size()));
-}
-
-/// As kernels/tracing/surface.h reads them: of an ellipsoid, where in the tree's blocks it is.
-std::vector<glm::uvec3> corners_of_primitives(const scene::Mesh& mesh, const scene::Bvh& bvh)
-{
-  std::vector<glm::uvec3> corners = mesh.triangles;
-  for (std::size_t i = 0; i < mesh.ellipsoids.size(); ++i)
-    corners.emplace_back(bvh.ellipsoid_places[i], ~0u, mesh.ellipsoids[i].inwards ? 1u : 0u);
-  return corners;
-}
-
-} // namespace
 
 std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + bytes_of(bvh.blocks); }
-
-std::uint64_t surface_bytes(const scene::Scene& scene)
-{
-  const scene::Mesh& mesh = scene.geometry;
-  return bytes_of(mesh.triangles) + bytes_of(mesh.positions) + bytes_of(mesh.normals) + bytes_of(scene.object_of_primitive);
-}
 
 void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& b)
 {
   b.nodes = compute::Buffer(context, "tree nodes", bvh.nodes);
   b.blocks = compute::Buffer(context, "tree triangles", bvh.blocks);
-  b.positions = upload_triples<float>(context, "vertex positions", scene.geometry.positions);
-  b.normals = upload_triples<float>(context, "vertex normals", scene.geometry.normals);
-  b.corners = upload_triples<std::uint32_t>(context, "triangle corners", corners_of_primitives(scene.geometry, bvh));
+  b.primitives = compute::Buffer(context, "triangles", device_primitives(scene));
 }
 
 SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables)
@@ -45,7 +17,6 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   const WavelengthTables& w = tables.wavelengths;
   SceneBuffers b;
   upload_surfaces(context, scene, bvh, b);
-  b.object_of_primitive = compute::Buffer(context, "object of each primitive", scene.object_of_primitive);
   b.objects = compute::Buffer(context, "objects", tables.objects);
   b.materials = compute::Buffer(context, "materials", tables.materials);
   b.lights = compute::Buffer(context, "lights", tables.lights);

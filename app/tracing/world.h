@@ -15,8 +15,8 @@
 namespace nephroid::tracing {
 
 struct SceneBuffers {
-  compute::Buffer<float> nodes, blocks, positions, normals;
-  compute::Buffer<std::uint32_t> corners, object_of_primitive;
+  compute::Buffer<float> nodes, blocks;
+  compute::Buffer<shared::DevicePrimitive> primitives;
   compute::Buffer<shared::DeviceObject> objects;
   compute::Buffer<shared::DeviceMaterial> materials;
   compute::Buffer<shared::DeviceLight> lights;
@@ -27,10 +27,8 @@ struct SceneBuffers {
   compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all, stretch_place, stretch_span;
 };
 
-/// What a table, and a scene's tree and its triangles, take in bytes.
-std::uint64_t bytes_of(const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); }
+/// What a scene's tree takes in bytes.
 std::uint64_t tree_bytes(const scene::Bvh& bvh);
-std::uint64_t surface_bytes(const scene::Scene& scene);
 
 /// Of the tables those that say where surfaces are; the others stay. Throws failed where the device has not enough memory.
 void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& buffers);
@@ -59,10 +57,7 @@ struct World {
     const SceneBuffers& b = buffers;
     std::vector<compute::Argument> arguments{{"nodes", b.nodes},
                                              {"blocks", b.blocks},
-                                             {"corners", b.corners},
-                                             {"positions", b.positions},
-                                             {"normals", b.normals},
-                                             {"object_of_primitive", b.object_of_primitive},
+                                             {"primitives", b.primitives},
                                              {"objects", b.objects},
                                              {"materials", b.materials},
                                              {"lights", b.lights},

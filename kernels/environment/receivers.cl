@@ -17,6 +17,6 @@ __kernel void receivers(WORLD_ARGUMENTS, __global const uint* list, uint first, 
                               NEPHROID_NO_PRIMITIVE);
   distances[texel] = hit.primitive == NEPHROID_NO_PRIMITIVE ? INFINITY : hit.t;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
-  const float3 normal = surface_at(&world.geometry, world.objects, hit).geometric;
+  const float3 normal = surface_at(&world.geometry, hit).geometric;
   facing[texel] = (float4)(dot(normal, direction) > 0.0f ? -normal : normal, 0.0f);
 }

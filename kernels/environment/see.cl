@@ -81,7 +81,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);
   const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
-                    material_of(&world, (int)object_of_primitive[hit.primitive]).type != MATERIAL_DIFFUSE;
+                    material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
   __global DeviceEnd* own = ends + ENDS_OF_PIXEL * item;
   for (int i = 0; i < ENDS_OF_PIXEL; ++i) own[i] = nowhere();
   if (!bent) {
@@ -89,7 +89,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
     own[0] = end_of(&world, path, hit, &all, (float3)(1.0f), seed, ENDS_OF_PIXEL * pass, pixel, coarse);
   } else {
     const float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
-    const Surface surface = surface_at(&world.geometry, objects, hit);
+    const Surface surface = surface_at(&world.geometry, hit);
     const DeviceMaterial material = material_of(&world, surface.object);
     for (int c = 0; c < ENDS_OF_PIXEL - 1; ++c) {
       const Band band = band_of_channel(channel_cdf, c, u);

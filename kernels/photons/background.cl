@@ -53,7 +53,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   float3 xyz = (float3)(0.0f);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE)
     xyz = background_xyz(&background, background_rgb(&background, path.direction), WAVELENGTH_COUNT);
-  else if (material_of(&world, (int)object_of_primitive[hit.primitive]).type == MATERIAL_DIFFUSE)
+  else if (material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type == MATERIAL_DIFFUSE)
     return;
   else
     for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {

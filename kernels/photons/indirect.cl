@@ -53,7 +53,7 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
   for (int surface_number = 0;; ++surface_number) {
     const Hit hit = next_hit(world, path);
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) return OUTCOME_ESCAPED;
-    const Surface surface = surface_at(&world->geometry, world->objects, hit);
+    const Surface surface = surface_at(&world->geometry, hit);
     const DeviceMaterial material = material_of(world, surface.object);
     lose_in_medium(world, path, hit.t);
     const float4 random = random4(seed, pass, number, 2u + (uint)surface_number, STREAM_INDIRECT);

@@ -119,7 +119,7 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
       end.outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
       break;
     }
-    end.surface = surface_at(&world->geometry, world->objects, hit);
+    end.surface = surface_at(&world->geometry, hit);
     end.triangle = hit.primitive;
     const DeviceMaterial material = material_of(world, end.surface.object);
     lose_in_medium(world, path, hit.t);

@@ -19,7 +19,7 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
     const Path first_way = {camera.position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
     const Hit first = next_hit(&world, &first_way);
     const bool hits = first.primitive != NEPHROID_NO_PRIMITIVE, straight = hits && is_unbent(&world, &camera, &first);
-    unbent[pixel * SURVEY_PLACES + place] = straight ? material_of(&world, (int)object_of_primitive[first.primitive]).reflector : -1;
+    unbent[pixel * SURVEY_PLACES + place] = straight ? material_of(&world, object_of_primitive(&world.geometry, first.primitive)).reflector : -1;
     for (int p = 0; p < SURVEY_PATHS; ++p) {
       const uint number = (uint)(place * SURVEY_PATHS + p);
       int seen = -1;

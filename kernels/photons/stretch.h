@@ -50,11 +50,10 @@ static inline bool stretched_place(const Path* path, const Surface* surface, flo
 // Whether a point of a triangle's plane lies in the triangle; false of an ellipsoid's tangent plane.
 static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float3 position)
 {
-  const uint3 corner = vload3(triangle, geometry->corners);
-  if (is_ellipsoid(corner)) return false;
-  const float3 a = vload3(corner.x, geometry->positions);
-  const float3 e1 = vload3(corner.y, geometry->positions) - a, e2 = vload3(corner.z, geometry->positions) - a;
-  const float3 across = cross(e1, e2), from_a = position - a;
+  const DevicePrimitive met = geometry->primitives[triangle];
+  if (is_ellipsoid(&met)) return false;
+  const float3 e1 = met.edge_u.xyz, e2 = met.edge_v.xyz, from_a = position - met.corner.xyz;
+  const float3 across = cross(e1, e2);
   const float u = dot(cross(from_a, e2), across), v = dot(cross(e1, from_a), across);
   return u >= 0.0f && v >= 0.0f && u + v <= dot(across, across);
 }
@@ -68,7 +67,7 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
   const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, place - reach * down, down, 0.0f,
                               2.0f * reach, NEPHROID_NO_PRIMITIVE);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return false;
-  *surface = surface_at(&world->geometry, world->objects, hit);
+  *surface = surface_at(&world->geometry, hit);
   *triangle = hit.primitive;
   return surface->object == end->surface.object && dot(surface->geometric, end->surface.geometric) > 0.7f;
 }

@@ -68,7 +68,7 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
   const Hit hit = next_hit(&world, &path);
   VisiblePoint point = nothing_visible();
   if (hit.primitive != NEPHROID_NO_PRIMITIVE) {
-    const bool bent = material_of(&world, (int)object_of_primitive[hit.primitive]).type != MATERIAL_DIFFUSE;
+    const bool bent = material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
     float weight = 1.0f / (float)path_count;
     if (cluster < 0 && bent) {
       cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, pass, place, 0u, pixel, STREAM_VIEW_CLUSTER);

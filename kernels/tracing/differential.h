@@ -55,23 +55,20 @@ static inline float3 refracted_differential(float3 direction, float3 d_direction
 //   P' = u' e_1 + v' e_2 gives u' and v', m' = u' (n_1 - n_0) + v' (n_2 - n_0), and N' = (m' - (m'.N) N) / |m|.
 // Of an ellipsoid N = g / |g| with g = M^T M (P - centre), so g' = M^T M P' and N' = (g' - (g'.N) N) / |g|: P' / R in a sphere.
 // position: on the primitive. The normal is the one that points outwards.
-static inline float3 normal_differential(const Geometry* geometry, uint primitive, float3 position, float3 d_position)
+static inline float3 normal_differential(const DevicePrimitive* primitive, float3 position, float3 d_position)
 {
-  const uint3 corner = vload3(primitive, geometry->corners);
 #if NEPHROID_ELLIPSOIDS
-  if (is_ellipsoid(corner)) {
-    __global const float* ellipsoid = geometry->blocks + corner.x;
-    const float3 g = ellipsoid_gradient(ellipsoid, bvh_to_unit_sphere(ellipsoid, position - vload3(0, ellipsoid)));
-    const float3 d_g = ellipsoid_gradient(ellipsoid, bvh_to_unit_sphere(ellipsoid, d_position));
-    const float side = corner.z != 0u ? -1.0f : 1.0f, gradient = length(g);
+  if (is_ellipsoid(primitive)) {
+    const float3 g = ellipsoid_gradient(primitive, to_unit_sphere(primitive, position - primitive->corner.xyz));
+    const float3 d_g = ellipsoid_gradient(primitive, to_unit_sphere(primitive, d_position));
+    const float gradient = length(g);
     const float3 along = g / gradient;
-    return side * (d_g - dot(d_g, along) * along) / gradient;
+    return ellipsoid_side(primitive) * (d_g - dot(d_g, along) * along) / gradient;
   }
 #endif
-  const float3 a = vload3(corner.x, geometry->positions);
-  const float3 e1 = vload3(corner.y, geometry->positions) - a, e2 = vload3(corner.z, geometry->positions) - a;
-  const float3 n0 = vload3(corner.x, geometry->normals);
-  const float3 m1 = vload3(corner.y, geometry->normals) - n0, m2 = vload3(corner.z, geometry->normals) - n0;
+  const float3 a = primitive->corner.xyz, e1 = primitive->edge_u.xyz, e2 = primitive->edge_v.xyz;
+  const VertexNormals n = vertex_normals(primitive);
+  const float3 n0 = n.first, m1 = n.second - n0, m2 = n.third - n0;
   const float3 across = cross(e1, e2);
   const float3 to_u = cross(e2, across) / dot(across, across), to_v = cross(across, e1) / dot(across, across);
   const float3 mixed = n0 + dot(position - a, to_u) * m1 + dot(position - a, to_v) * m2;
@@ -90,15 +87,15 @@ static inline void differential_to_surface(Differential* d, float3 direction, fl
 }
 
 // Across a bend at that surface. direction: before it; n_i, n_t and their n': before and after an interface, all the same at a mirror.
-static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive, const Surface* surface, bool smooth,
+static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive, const Surface* surface,
                                              float3 direction, const Bend* bend, float n_i, float n_t, float d_n_i, float d_n_t)
 {
 #if NEPHROID_DIFFERENTIALS
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   float3 d_normal = (float3)(0.0f);
-  const bool interpolated = NEPHROID_SMOOTH && smooth && any(bend->normal != side * surface->geometric);
-  if (interpolated || is_ellipsoid(vload3(primitive, geometry->corners)))
-    d_normal = side * normal_differential(geometry, primitive, surface->position, d->position);
+  const DevicePrimitive met = geometry->primitives[primitive];
+  const bool interpolated = NEPHROID_SMOOTH && kind_of(&met) == PRIMITIVE_SMOOTH && any(bend->normal != side * surface->geometric);
+  if (interpolated || is_ellipsoid(&met)) d_normal = side * normal_differential(&met, surface->position, d->position);
   const float eta = n_i / n_t;
   d->direction = bend->transmitted
                      ? refracted_differential(direction, d->direction, bend->normal, d_normal, eta, (d_n_i - eta * d_n_t) / n_t)

@@ -93,7 +93,7 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
 // Whether a path from the eye has met a diffuse surface at once: then all wavelengths went the same way.
 static inline bool is_unbent(const World* world, const DeviceCamera* camera, const Hit* first)
 {
-  const int object = (int)world->geometry.object_of_primitive[first->primitive];
+  const int object = object_of_primitive(&world->geometry, first->primitive);
   return material_of(world, object).type == MATERIAL_DIFFUSE && camera->inside.count == 0;
 }
 
@@ -109,7 +109,7 @@ static inline float reach_end(const World* world, Path* path, Hit* hit, const Ba
   for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
     if (surface_number > 0) *hit = next_hit(world, path);
     if (hit->primitive == NEPHROID_NO_PRIMITIVE) return radiance_scale;
-    *surface = surface_at(&world->geometry, world->objects, *hit);
+    *surface = surface_at(&world->geometry, *hit);
     const DeviceMaterial material = material_of(world, surface->object);
     lose_in_medium(world, path, hit->t);
     if (material.type == MATERIAL_DIFFUSE) return radiance_scale;

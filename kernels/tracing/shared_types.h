@@ -62,8 +62,6 @@ typedef struct {
 typedef struct {
   int material;
   int priority;
-  int smooth; // 1: refract and shade about interpolated vertex normals
-  int padding;
 } DeviceObject;
 
 typedef struct {
@@ -126,6 +124,20 @@ typedef struct {
   int padding;
 } DeviceBackground;
 
+#define PRIMITIVE_FLAT 0
+#define PRIMITIVE_SMOOTH 1
+#define PRIMITIVE_ELLIPSOID 2
+#define PRIMITIVE_ELLIPSOID_INWARDS 3 // its normals look towards its centre
+
+// A triangle or ellipsoid as a hit reads it: 64 bytes, a line of a processor's cache. Of a smooth triangle `normal` and then the w of edge_u
+// and edge_v are the normals of its vertices, 8 bytes each (surface.h).
+typedef struct {
+  float4 corner; // the first corner; of an ellipsoid its centre. w: as_int, the object's number << 2 | PRIMITIVE_*
+  float4 edge_u; // from there to the second corner; first row of the matrix to the unit sphere
+  float4 edge_v; // to the third corner; second row
+  float4 normal; // of a flat triangle: unit, outwards; w: how far a new ray starts from it. Of an ellipsoid: third row
+} DevicePrimitive;
+
 // What every kernel needs of the scene as a whole.
 typedef struct {
   int root; // of the tree: bvh.h
@@ -139,9 +151,10 @@ typedef struct {
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 16 && sizeof(Media) == 48);
+static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 8 && sizeof(Media) == 48);
 static_assert(sizeof(DeviceLight) == 144 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
 static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 32 && sizeof(DeviceBackground) == 16);
+static_assert(sizeof(DevicePrimitive) == 64);
 } // namespace nephroid::shared
 #endif
 

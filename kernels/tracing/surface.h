@@ -11,14 +11,11 @@
 #define NEPHROID_SMOOTH 1
 #endif
 
-// The scene's triangles and ellipsoids as kernels see them; every vertex has three floats a table.
+// The scene's triangles and ellipsoids as kernels see them.
 typedef struct {
-  __global const float* nodes;    // bvh.h
-  __global const float* blocks;   // bvh.h
-  __global const uint* corners;   // three vertex numbers a triangle; an ellipsoid: see is_ellipsoid
-  __global const float* positions;
-  __global const float* normals;  // vertex normals, unit
-  __global const uint* object_of_primitive;
+  __global const float* nodes;  // bvh.h
+  __global const float* blocks; // bvh.h
+  __global const DevicePrimitive* primitives;
   int root;
 } Geometry;
 
@@ -30,62 +27,100 @@ typedef struct {
   int object;
 } Surface;
 
-// Of an ellipsoid the three numbers are: its first float in the blocks of the tree, this mark, whether its normals look inwards.
-static inline bool is_ellipsoid(uint3 corner) { return NEPHROID_ELLIPSOIDS && corner.y == NEPHROID_NO_PRIMITIVE; }
+static inline int kind_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) & 3; }
+static inline int object_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) >> 2; }
+static inline bool is_ellipsoid(const DevicePrimitive* primitive) { return NEPHROID_ELLIPSOIDS && kind_of(primitive) >= PRIMITIVE_ELLIPSOID; }
+
+static inline int object_of_primitive(const Geometry* geometry, uint primitive)
+{
+  return as_int(geometry->primitives[primitive].corner.w) >> 2;
+}
+
+// A vertex normal of 21 bits a coordinate, in units of 2^-20, each moved to the top of a word. Its error is below that of a mesh's file.
+static inline float3 unpacked_normal(float low, float high)
+{
+  const uint x = as_uint(low), y = as_uint(high);
+  return (float3)((float)(int)(x << 11), (float)(int)(x >> 21 << 11 | y << 22), (float)(int)(y >> 10 << 11)) * 0x1p-31f;
+}
+
+typedef struct {
+  float3 first, second, third;
+} VertexNormals;
+
+static inline VertexNormals vertex_normals(const DevicePrimitive* triangle)
+{
+  const VertexNormals normals = {unpacked_normal(triangle->normal.x, triangle->normal.y), unpacked_normal(triangle->normal.z, triangle->normal.w),
+                                 unpacked_normal(triangle->edge_u.w, triangle->edge_v.w)};
+  return normals;
+}
 
 #if NEPHROID_ELLIPSOIDS
-// M^T u with the rows m_i of the matrix M to the unit sphere: along the normal at the point that M takes to u.
-static inline float3 ellipsoid_gradient(__global const float* ellipsoid, float3 unit)
+// M way, with M the matrix to the unit sphere.
+static inline float3 to_unit_sphere(const DevicePrimitive* ellipsoid, float3 way)
 {
-  return unit.x * vload3(1, ellipsoid) + unit.y * vload3(2, ellipsoid) + unit.z * vload3(3, ellipsoid);
+  return (float3)(dot(ellipsoid->edge_u.xyz, way), dot(ellipsoid->edge_v.xyz, way), dot(ellipsoid->normal.xyz, way));
+}
+
+// M^T u with the rows m_i of the matrix M to the unit sphere: along the normal at the point that M takes to u.
+static inline float3 ellipsoid_gradient(const DevicePrimitive* ellipsoid, float3 unit)
+{
+  return unit.x * ellipsoid->edge_u.xyz + unit.y * ellipsoid->edge_v.xyz + unit.z * ellipsoid->normal.xyz;
 }
 
 // The rows are perpendicular to each other, so what M takes to u is the sum of u_i m_i / |m_i|^2.
-static inline float3 ellipsoid_point(__global const float* ellipsoid, float3 unit)
+static inline float3 ellipsoid_point(const DevicePrimitive* ellipsoid, float3 unit)
 {
-  const float3 x = vload3(1, ellipsoid), y = vload3(2, ellipsoid), z = vload3(3, ellipsoid);
+  const float3 x = ellipsoid->edge_u.xyz, y = ellipsoid->edge_v.xyz, z = ellipsoid->normal.xyz;
   const float3 along = unit / (float3)(dot(x, x), dot(y, y), dot(z, z));
-  return vload3(0, ellipsoid) + along.x * x + along.y * y + along.z * z;
+  return ellipsoid->corner.xyz + along.x * x + along.y * y + along.z * z;
+}
+
+// -1 where the ellipsoid's normals look inwards.
+static inline float ellipsoid_side(const DevicePrimitive* ellipsoid)
+{
+  return kind_of(ellipsoid) == PRIMITIVE_ELLIPSOID_INWARDS ? -1.0f : 1.0f;
 }
 
 // A ray that leaves an ellipsoid knows that it does (bvh_ellipsoid), so the offset need only be of the size of the position's rounding.
-static inline Surface ellipsoid_at(__global const float* ellipsoid, bool inwards, int object, float3 unit)
+static inline Surface ellipsoid_at(const DevicePrimitive* ellipsoid, float3 unit)
 {
   Surface surface;
   const float3 gradient = ellipsoid_gradient(ellipsoid, unit);
   surface.position = ellipsoid_point(ellipsoid, unit);
-  surface.geometric = surface.shading = gradient * ((inwards ? -1.0f : 1.0f) / sqrt(dot(gradient, gradient)));
-  const float3 size = fabs(vload3(0, ellipsoid)) + fabs(surface.position);
+  surface.geometric = surface.shading = gradient * (ellipsoid_side(ellipsoid) / sqrt(dot(gradient, gradient)));
+  const float3 size = fabs(ellipsoid->corner.xyz) + fabs(surface.position);
   surface.offset = 0x1p-23f * max(max(size.x, size.y), size.z);
-  surface.object = object;
+  surface.object = object_of(ellipsoid);
   return surface;
 }
 #endif
 
-// Barycentric interpolation rounds relative to the triangle's size; origin + t * direction would round relative to the distance.
-static inline Surface surface_at(const Geometry* geometry, __global const DeviceObject* objects, Hit hit)
+// Both the interpolated point and the distance at which a ray meets a neighbour in the same plane are off by a few 2^-24 of the
+// triangle's largest coordinate. Starting farther away than that keeps a new ray from meeting the surface that it leaves.
+static inline float triangle_offset(float3 corner, float3 edge_u, float3 edge_v)
 {
-  Surface surface;
-  const uint3 corner = vload3(hit.primitive, geometry->corners);
+  const float3 size = max(fabs(corner), max(fabs(edge_u), fabs(edge_v)));
+  return 0x1p-21f * max(max(size.x, size.y), size.z);
+}
+
+// Barycentric interpolation rounds relative to the triangle's size; origin + t * direction would round relative to the distance.
+static inline Surface surface_at(const Geometry* geometry, Hit hit)
+{
+  const DevicePrimitive triangle = geometry->primitives[hit.primitive];
 #if NEPHROID_ELLIPSOIDS
-  if (is_ellipsoid(corner))
-    return ellipsoid_at(geometry->blocks + corner.x, corner.z != 0u, (int)geometry->object_of_primitive[hit.primitive],
-                        (float3)(hit.u, hit.v, hit.w));
+  if (is_ellipsoid(&triangle)) return ellipsoid_at(&triangle, (float3)(hit.u, hit.v, hit.w));
 #endif
-  const float3 a = vload3(corner.x, geometry->positions);
-  const float3 ab = vload3(corner.y, geometry->positions) - a, ac = vload3(corner.z, geometry->positions) - a;
-  surface.position = a + hit.u * ab + hit.v * ac;
-  surface.geometric = normalize(cross(ab, ac));
-  // Both the interpolated point and the distance at which a ray meets a neighbour in the same plane are off by a few 2^-24 of the
-  // triangle's largest coordinate. Starting farther away than that keeps a new ray from meeting the surface that it leaves.
-  const float3 size = max(fabs(a), max(fabs(ab), fabs(ac)));
-  surface.offset = 0x1p-21f * max(max(size.x, size.y), size.z);
-  surface.object = (int)geometry->object_of_primitive[hit.primitive];
-  surface.shading = surface.geometric;
+  Surface surface;
+  surface.position = triangle.corner.xyz + hit.u * triangle.edge_u.xyz + hit.v * triangle.edge_v.xyz;
+  surface.geometric = surface.shading = triangle.normal.xyz;
+  surface.offset = triangle.normal.w;
+  surface.object = object_of(&triangle);
 #if NEPHROID_SMOOTH
-  if (objects[surface.object].smooth) {
-    const float3 mixed = (1.0f - hit.u - hit.v) * vload3(corner.x, geometry->normals) + hit.u * vload3(corner.y, geometry->normals) +
-                         hit.v * vload3(corner.z, geometry->normals);
+  if (kind_of(&triangle) == PRIMITIVE_SMOOTH) {
+    surface.geometric = surface.shading = normalize(cross(triangle.edge_u.xyz, triangle.edge_v.xyz));
+    surface.offset = triangle_offset(triangle.corner.xyz, triangle.edge_u.xyz, triangle.edge_v.xyz);
+    const VertexNormals n = vertex_normals(&triangle);
+    const float3 mixed = (1.0f - hit.u - hit.v) * n.first + hit.u * n.second + hit.v * n.third;
     if (dot(mixed, surface.geometric) > 0.0f) surface.shading = normalize(mixed);
   }
 #endif

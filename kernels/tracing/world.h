@@ -33,8 +33,8 @@ typedef struct {
 
 // The buffers that a World is made of, as kernel arguments.
 #define WORLD_ARGUMENTS                                                                                                                    \
-  __global const float *nodes, __global const float *blocks, __global const uint *corners, __global const float *positions,                \
-      __global const float *normals, __global const uint *object_of_primitive, __global const DeviceObject *objects,                       \
+  __global const float *nodes, __global const float *blocks, __global const DevicePrimitive *primitives,                                   \
+      __global const DeviceObject *objects,                                                                                                \
       __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_cluster,                \
       __global const float *index_of_wavelength, __global const float *wavelength_cdf, __global const float *index_slope,                  \
       __global const float4 *stretch_place, __global const float4 *stretch_span, __global const float4 *reflected_xyz,                     \
@@ -43,7 +43,7 @@ typedef struct {
       __global const float *sky_colour, DeviceBackground sky_size, int reflector_count, DeviceScene scene
 #define WORLD                                                                                                                              \
   {                                                                                                                                        \
-    {nodes, blocks, corners, positions, normals, object_of_primitive, scene.root}, objects, materials, lights, index_of_cluster,           \
+    {nodes, blocks, primitives, scene.root}, objects, materials, lights, index_of_cluster,                                                 \
         index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                                      \
         {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size}, reflector_count, scene \
   }
@@ -112,9 +112,8 @@ static inline void bend_differential(const World* world, Path* path, uint triang
   __global const float* n_of = index_of_band(world, band);
   __global const float* slope_of = world->index_slope + band->cluster * world->scene.material_count;
   const int near = bend->near_material, far = bend->far_material;
-  differential_through_bend(&path->differential, &world->geometry, triangle, surface, world->objects[surface->object].smooth != 0,
-                            path->direction, bend, near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far],
-                            near < 0 ? 0.0f : slope_of[near], far < 0 ? 0.0f : slope_of[far]);
+  differential_through_bend(&path->differential, &world->geometry, triangle, surface, path->direction, bend,
+                            near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], near < 0 ? 0.0f : slope_of[near], far < 0 ? 0.0f : slope_of[far]);
 #endif
 }
 

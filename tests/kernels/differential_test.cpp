@@ -30,7 +30,7 @@ __kernel void follow(WORLD_ARGUMENTS, __global const float* rays, __global const
   for (int step = 0; step < STEPS; ++step) {
     const Hit hit = next_hit(&world, &path);
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
-    const Surface surface = surface_at(&world.geometry, objects, hit);
+    const Surface surface = surface_at(&world.geometry, hit);
     const DeviceMaterial material = material_of(&world, surface.object);
     const float3 arriving = path.direction;
     uint event = 0;
