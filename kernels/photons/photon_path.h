@@ -43,6 +43,15 @@ static inline int emitter_of(__global const DeviceEmitter* emitters, int count, 
   return low;
 }
 
+// The order in which the photons 0 .. count - 1 of a launch are followed: of each 4096 the number with its bits in reverse. Points of a Sobol
+// sequence whose numbers agree in their lowest bits are close together, so photons that follow each other mostly meet the same nodes and
+// triangles. Sums of whole numbers do not ask for the order.
+static inline uint neighbours_follow(uint number, uint count)
+{
+  const uint first = number & ~0xfffu;
+  return first + 0x1000u <= count ? first | reverse_bits(number) >> 20 : number;
+}
+
 // What a photon starts with.
 typedef struct {
   int emitter;

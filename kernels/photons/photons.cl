@@ -70,7 +70,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
-    const uint photon = offset + stride * number;
+    const uint photon = offset + stride * neighbours_follow(number, count);
 #if NEPHROID_STORE
     stored[stored_first + photon].group = NO_PHOTON;
 #endif

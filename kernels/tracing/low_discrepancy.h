@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Low-discrepancy numbers: a Sobol sequence of four dimensions, scrambled and shuffled as Owen (1995) has it by hashing (Burley 2020, "Practical
+// Low-discrepancy numbers: a Sobol sequence of four dimensions, scrambled as Owen (1995) has it by hashing (Burley 2020, "Practical
 // hash-based Owen scrambling"). Each number on its own is uniform in [0, 1); sequences with another key are independent.
 #ifndef NEPHROID_LOW_DISCREPANCY_H
 #define NEPHROID_LOW_DISCREPANCY_H
@@ -59,8 +59,9 @@ static inline uint4 reverse_bits4(uint4 x) { return (uint4)(reverse_bits(x.x), r
 static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index)
 {
   const uint4 key = philox4x32((uint4)(sequence, set << 16 | STREAM_SOBOL), seed);
-  // The order of the points is shuffled by a key of its own, so that sets are not paired alike.
-  const uint shuffled = reverse_bits(permute_by_lower_bits((uint4)(reverse_bits(index)), (uint4)(key.x ^ key.w * 0x9e3779b9u)).x);
+  // The order of the points of every set but the first is shuffled by a key of its own, so that sets are not paired alike.
+  uint shuffled = index;
+  if (set != 0u) shuffled = reverse_bits(permute_by_lower_bits((uint4)(reverse_bits(index)), (uint4)(key.x ^ key.w * 0x9e3779b9u)).x);
   uint3 bits = (uint3)(0u);
   for (int i = 0; i < 32; ++i) bits ^= sobol_directions[i] & (uint3)(0u - (shuffled >> i & 1u));
   // Dimension 1 is the reversed index, so its own reversal, where scrambling happens, is the index.
