@@ -274,8 +274,10 @@ std::map<std::string, std::string> tree_defines(const Bvh& bvh)
 {
   // Ellipsoids in one leaf have kernels of their own; other trees come in few sizes.
   const bool one_leaf = bvh.stack <= 1 && bvh.has_ellipsoids;
-  const int stack = one_leaf ? 1 : std::max(1, (bvh.stack + 31) / 32) * 32;
-  return {{"NEPHROID_ELLIPSOIDS", bvh.has_ellipsoids ? "1" : "0"}, {"NEPHROID_BVH_STACK", std::to_string(stack)}};
+  const auto size = [](int least, int step) { return std::to_string(std::max(1, (least + step - 1) / step) * step); };
+  return {{"NEPHROID_ELLIPSOIDS", bvh.has_ellipsoids ? "1" : "0"},
+          {"NEPHROID_BVH_STACK", one_leaf ? "1" : size(bvh.stack, 32)},
+          {"NEPHROID_BVH_DEPTH", size(bvh.depth, 16)}};
 }
 
 Bvh build_bvh(const Mesh& mesh)

@@ -22,7 +22,7 @@ struct Bvh {
   std::vector<float> blocks; ///< 40 floats a block
   bool has_ellipsoids = false;
   int root = 0;  ///< node index, or ~leaf
-  int depth = 0; ///< nodes on the longest way from the root to a leaf
+  int depth = 0; ///< nodes on the longest way from the root to a leaf: -DNEPHROID_BVH_DEPTH must be at least that
   int stack = 0; ///< what -DNEPHROID_BVH_STACK must be at least: entries that a traversal can need at once
 };
 

@@ -26,8 +26,10 @@ shared::Media to_media(const std::vector<int>& inside, const Place& where)
     throw bad_input(where, fmt::format("is inside {} dielectric objects", inside.size()),
                     fmt::format("expected at most {} around one point", MEDIA_DEPTH), "move it, or take some of them away");
   shared::Media media{};
-  media.count = static_cast<int>(inside.size());
-  std::copy_n(inside.begin(), media.count, media.objects);
+  for (const int object : inside) {
+    media.earlier = media.earlier << MEDIUM_BITS | media.latest >> (64 - MEDIUM_BITS);
+    media.latest = media.latest << MEDIUM_BITS | static_cast<std::uint64_t>(object + 1);
+  }
   return media;
 }
 
@@ -232,6 +234,10 @@ int device_light_type(preset::Light::Type type)
 
 SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const LeaveOut& leave_out)
 {
+  constexpr std::size_t most_objects = (1 << MEDIUM_BITS) - 1; // a path's list of media numbers them from 1
+  if (scene.objects.size() > most_objects)
+    throw bad_input("scene.objects", fmt::format("has {} objects", scene.objects.size()), fmt::format("at most {}", most_objects),
+                    "join some of them to one mesh");
   SceneTables tables;
   tables.power_unit = choose_power_unit(scene);
   std::vector<const scene::Light*> lights;

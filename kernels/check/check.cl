@@ -85,8 +85,7 @@ kernel void media_walks(global const DeviceObject* objects, global const int* st
 {
   const uint walk = get_global_id(0);
   if (walk >= count) return;
-  Media media;
-  media.count = 0;
+  Media media = {0ul, 0ul};
   for (int s = 0; s < steps_each; ++s) {
     const int step = steps[walk * (uint)steps_each + (uint)s];
     bool fits = true;

@@ -110,7 +110,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
       const Hit hit = next_hit(&world, &path);
       const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
       // What meets nothing more is outside, also of a mesh with a hole that it came in by its surface and out by the hole.
-      if (met && (leaves || path.media.count == 0)) {
+      if (met && (leaves || is_in_air(&path.media))) {
         const Carried carried = carried_by(light_rgb, &band, power * left_of(&world, &path, &band));
         mark_spheres(&spheres, path.origin, path.direction, leaves ? INFINITY : hit.t, &carried);
       }

@@ -7,7 +7,6 @@
 
 #ifndef __OPENCL_C_VERSION__
 namespace nephroid::shared {
-using ulong = std::uint64_t;
 #endif
 
 // What the host knows of a texel of the receivers' cube.

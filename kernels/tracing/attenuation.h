@@ -41,7 +41,11 @@ static inline void lose(Losses* losses, int attenuator, float length)
 {
 #if NEPHROID_ATTENUATORS > 0
   if (attenuator < 0) return;
+#if NEPHROID_ATTENUATORS <= 4 // without an index they are registers
+  for (int a = 0; a < NEPHROID_ATTENUATORS; ++a) losses->lengths[a] += a == attenuator ? length : 0.0f;
+#else
   losses->lengths[attenuator] += length;
+#endif
   losses->any = true;
 #endif
 }

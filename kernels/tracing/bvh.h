@@ -30,6 +30,15 @@
 
 #define NEPHROID_NO_PRIMITIVE 0xFFFFFFFFu
 
+// 1: one box and one triangle at a time.
+#ifndef NEPHROID_BVH_SCALAR
+#ifdef NEPHROID_GPU
+#define NEPHROID_BVH_SCALAR 1
+#else
+#define NEPHROID_BVH_SCALAR 0
+#endif
+#endif
+
 // A tree that needs one entry is a single leaf: a ball over a floor.
 #define BVH_LEAF_ONLY (NEPHROID_ELLIPSOIDS && NEPHROID_BVH_STACK == 1)
 
@@ -87,7 +96,8 @@ typedef struct {
 #endif
 } BvhRay;
 
-static inline float bvh_axis(float3 a, int k) { return k == 0 ? a.x : k == 1 ? a.y : a.z; }
+// The components of a along the axes kx, ky, kz, which follow each other. Not by index, for which a GPU would put the vector into memory.
+static inline float3 bvh_axes(float3 a, int kz) { return kz == 0 ? a.yzx : kz == 1 ? a.zxy : a; }
 
 // Where a ray from afar passes the scene's middle, at which small objects are: writes its nearest point to the middle and returns how far
 // that is, in lengths of the direction; 0: the ray does not come from afar. Rounding errors, and with them the slack of bvh_ray, grow with
@@ -121,12 +131,13 @@ static inline BvhRay bvh_ray(float3 o, float3 d)
   r.kz = a.x > a.y ? (a.x > a.z ? 0 : 2) : (a.y > a.z ? 1 : 2);
   r.kx = r.kz == 2 ? 0 : r.kz + 1;
   r.ky = r.kx == 2 ? 0 : r.kx + 1;
-  r.sz = 1.0f / bvh_axis(d, r.kz);
-  r.sx = bvh_axis(d, r.kx) * r.sz;
-  r.sy = bvh_axis(d, r.ky) * r.sz;
-  r.ox = bvh_axis(o, r.kx);
-  r.oy = bvh_axis(o, r.ky);
-  r.oz = bvh_axis(o, r.kz);
+  const float3 along = bvh_axes(d, r.kz), start = bvh_axes(o, r.kz);
+  r.sz = 1.0f / along.z;
+  r.sx = along.x * r.sz;
+  r.sy = along.y * r.sz;
+  r.ox = start.x;
+  r.oy = start.y;
+  r.oz = start.z;
 #if NEPHROID_ELLIPSOIDS
   r.origin = o;
   r.direction = d;
@@ -207,6 +218,9 @@ static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r,
 }
 #endif
 
+#if NEPHROID_BVH_SCALAR
+#include "kernels/tracing/bvh_scalar.h"
+#else
 // The closest hit with t_min < t <= t_max, other than with triangle `skip` or where the ray leaves ellipsoid `skip`. No hit: t is t_max.
 static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max,
                               uint skip)
@@ -348,6 +362,8 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
   }
   return false;
 }
+
+#endif // NEPHROID_BVH_SCALAR
 
 // Both queries below trace a ray from afar in two parts that overlap: the first from its origin, the second from its point nearest to the
 // scene's middle, so that neither part sees rounding errors of the other's distance.

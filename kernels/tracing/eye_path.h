@@ -94,7 +94,7 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
 static inline bool is_unbent(const World* world, const DeviceCamera* camera, const Hit* first)
 {
   const int object = object_of_primitive(&world->geometry, first->primitive);
-  return material_of(world, object).type == MATERIAL_DIFFUSE && camera->inside.count == 0;
+  return material_of(world, object).type == MATERIAL_DIFFUSE && is_in_air(&camera->inside);
 }
 
 // Takes a path that has met `hit` on through glass and mirrors in one band to a diffuse surface or out of the scene. `hit` and, of a

@@ -1,19 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nested dielectrics (Schmidt and Budge 2002): which objects enclose a path, and which of them is the medium there.
 // An object counts once for each of its surfaces that was entered and not left, so overlapping shells of one mesh act as their union.
+// The list is 128 bits of a path, not an array: a GPU keeps it in registers.
 #ifndef NEPHROID_MEDIA_H
 #define NEPHROID_MEDIA_H
 
 #include "kernels/tracing/shared_types.h"
 
+#define MEDIUM_MASK ((1ul << MEDIUM_BITS) - 1ul)
+
+static inline bool is_in_air(const Media* media) { return media->latest == 0ul; } // the earlier ones come after four others
+
+// The object that was entered last, which is not none.
+static inline int latest_medium(const Media* media) { return (int)(media->latest & MEDIUM_MASK) - 1; }
+
+static inline Media without_latest(Media media)
+{
+  const Media rest = {media.latest >> MEDIUM_BITS | media.earlier << (64 - MEDIUM_BITS), media.earlier >> MEDIUM_BITS};
+  return rest;
+}
+
 // The object whose material fills the place: the highest priority, of equals the one entered last; -1: air.
 static inline int medium_object(const Media* media, __global const DeviceObject* objects)
 {
   int best = -1, best_priority = 0;
-  for (int i = 0; i < media->count; ++i) {
-    const int candidate = media->objects[i];
-    const int priority = objects[candidate].priority;
-    if (best < 0 || priority >= best_priority) {
+  for (Media rest = *media; !is_in_air(&rest); rest = without_latest(rest)) {
+    const int candidate = latest_medium(&rest), priority = objects[candidate].priority;
+    if (best < 0 || priority > best_priority) {
       best = candidate;
       best_priority = priority;
     }
@@ -23,28 +36,35 @@ static inline int medium_object(const Media* media, __global const DeviceObject*
 
 static inline bool is_inside(const Media* media, int object)
 {
-  for (int i = 0; i < media->count; ++i)
-    if (media->objects[i] == object) return true;
+  for (Media rest = *media; !is_in_air(&rest); rest = without_latest(rest))
+    if (latest_medium(&rest) == object) return true;
   return false;
 }
 
 // Appends an object. False where the list is full.
 static inline bool enter_medium(Media* media, int object)
 {
-  if (media->count == MEDIA_DEPTH) return false;
-  media->objects[media->count++] = object;
+  if (media->earlier >> (64 - MEDIUM_BITS)) return false;
+  media->earlier = media->earlier << MEDIUM_BITS | media->latest >> (64 - MEDIUM_BITS);
+  media->latest = media->latest << MEDIUM_BITS | (ulong)(object + 1);
   return true;
 }
 
 // Removes the latest entry of an object; nothing happens where it is not there (an open mesh).
 static inline void leave_medium(Media* media, int object)
 {
-  int found = -1;
-  for (int i = 0; i < media->count; ++i)
-    if (media->objects[i] == object) found = i;
-  if (found < 0) return;
-  for (int i = found; i + 1 < media->count; ++i) media->objects[i] = media->objects[i + 1];
-  --media->count;
+  uint place = 0;
+  Media rest = *media;
+  for (; !is_in_air(&rest) && latest_medium(&rest) != object; rest = without_latest(rest)) place += MEDIUM_BITS;
+  if (is_in_air(&rest)) return;
+  // Those entered after it stay where they are, the others move up by one.
+  const Media moved = without_latest(*media);
+  const ulong after = (1ul << (place & 63u)) - 1ul; // of the half that it is in
+  if (place < 64u) {
+    media->latest = (media->latest & after) | (moved.latest & ~after);
+    media->earlier = moved.earlier;
+  } else
+    media->earlier = (media->earlier & after) | (moved.earlier & ~after);
 }
 
 #endif

@@ -8,6 +8,7 @@
 #include <cstdint>
 namespace nephroid::shared {
 using uint = std::uint32_t;
+using ulong = std::uint64_t;
 struct alignas(16) float4 {
   float x, y, z, w;
 };
@@ -19,8 +20,9 @@ struct alignas(8) uint2 {
 // 380..780 nm in steps of 1 nm: optics::wavelength_count.
 #define WAVELENGTH_COUNT 401
 
-// At most this many dielectrics may enclose one point.
+// At most this many dielectrics may enclose one point: 128 bits of them.
 #define MEDIA_DEPTH 8
+#define MEDIUM_BITS 16
 
 // At most this many spheres stand for the caustic objects.
 #define MAX_TARGETS 16
@@ -64,10 +66,9 @@ typedef struct {
   int priority;
 } DeviceObject;
 
+// The dielectric objects that enclose a point, each as its number + 1 in MEDIUM_BITS: media.h.
 typedef struct {
-  int count;
-  int objects[MEDIA_DEPTH]; // dielectric objects that enclose a point, the one entered last at the end
-  int padding[3];
+  ulong latest, earlier; // the one entered last is lowest in `latest`; the four before the last four are in `earlier`
 } Media;
 
 typedef struct {
@@ -151,9 +152,9 @@ typedef struct {
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 8 && sizeof(Media) == 48);
-static_assert(sizeof(DeviceLight) == 144 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
-static_assert(sizeof(DeviceCamera) == 128 && sizeof(DeviceScene) == 32 && sizeof(DeviceBackground) == 16);
+static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
+static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
+static_assert(sizeof(DeviceCamera) == 96 && sizeof(DeviceScene) == 32 && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64);
 } // namespace nephroid::shared
 #endif

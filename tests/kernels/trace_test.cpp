@@ -201,9 +201,9 @@ TEST_F(Trace, NothingHitsAnEmptyOrDegenerateMesh)
   EXPECT_EQ(test::KernelTracer(context_, scene::Mesh{}).any(rays), std::vector<std::uint32_t>(rays.size(), 0));
 }
 
-TEST_F(Trace, NeedlesOfAnyLengthFitTheStack)
+/// Triangles that double in size and share a corner make the deepest trees.
+scene::Mesh needles()
 {
-  // Triangles that double in size and share a corner make the deepest trees.
   scene::Mesh mesh;
   for (int i = 0; i < 400; ++i) {
     const float size = std::ldexp(1e-12f, i % 80), turn = 0.01f * static_cast<float>(i / 80);
@@ -211,7 +211,12 @@ TEST_F(Trace, NeedlesOfAnyLengthFitTheStack)
     mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {size, 1e-3f * size, turn * size}, {size, 2e-3f * size, -turn * size}});
     mesh.triangles.emplace_back(first, first + 1, first + 2);
   }
-  const scene::Bvh bvh = scene::build_bvh(mesh);
+  return mesh;
+}
+
+TEST_F(Trace, NeedlesOfAnyLengthFitTheStack)
+{
+  const scene::Bvh bvh = scene::build_bvh(needles());
   EXPECT_GE(bvh.stack, bvh.depth);
   EXPECT_LE(bvh.stack, 7 * bvh.depth + 1);
   std::vector<Ray> rays;
@@ -261,15 +266,33 @@ TEST_F(Trace, RefusesCornersThatAreMissingOrNotFinite)
   EXPECT_THROW(scene::build_bvh(mesh), Error);
 }
 
-TEST_F(Trace, PortableMasksGiveTheSameBits)
+/// Spheres of triangles and ellipsoids at several depths of one tree, and triangles that make the deepest one.
+std::vector<scene::Mesh> meshes_of_all_kinds()
 {
-  const scene::Mesh mesh = test::sphere_mesh(60, 31);
-  const std::vector<Ray> rays = rays_at(1, glm::vec3(0), 5000);
-  const std::vector<Hit> fast = trace(mesh, rays), portable = trace(mesh, rays, {{"NEPHROID_BVH_PORTABLE", "1"}});
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    ASSERT_EQ(fast[i].primitive, portable[i].primitive);
-    ASSERT_EQ(fast[i].t, portable[i].t);
-    ASSERT_EQ(fast[i].u, portable[i].u);
+  scene::Mesh mixed = test::sphere_mesh(60, 31);
+  for (int i = 0; i < 40; ++i)
+    mixed.ellipsoids.push_back({.centre = 0.02f * glm::vec3(i, i % 7, -i), .half_axes = {{{0.05f, 0, 0}, {0, 0.03f, 0}, {0, 0, 0.02f}}}});
+  return {mixed, test::sphere_mesh(60, 31), needles()};
+}
+
+TEST_F(Trace, WhatOtherDevicesRunGivesTheSameBits)
+{
+  for (const scene::Mesh& mesh : meshes_of_all_kinds()) {
+    const scene::Bvh bvh = scene::build_bvh(mesh);
+    const std::vector<Ray> rays = rays_at(1, glm::vec3(0), 5000);
+    test::KernelTracer fast(context_, bvh);
+    const std::vector<Hit> expected = fast.closest(rays);
+    for (const char* define : {"NEPHROID_BVH_PORTABLE", "NEPHROID_BVH_SCALAR"}) {
+      test::KernelTracer other(context_, bvh, {{define, "1"}});
+      const std::vector<Hit> hits = other.closest(rays);
+      EXPECT_EQ(fast.any(rays), other.any(rays)) << define;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_EQ(expected[i].primitive, hits[i].primitive) << define << ", ray " << i;
+        ASSERT_EQ(expected[i].t, hits[i].t) << define << ", ray " << i;
+        ASSERT_EQ(expected[i].u, hits[i].u) << define << ", ray " << i;
+        ASSERT_EQ(expected[i].v, hits[i].v) << define << ", ray " << i;
+      }
+    }
   }
 }
 

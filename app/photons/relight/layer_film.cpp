@@ -168,7 +168,7 @@ std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene
     const glm::vec3 aside = glm::cross(to, way);
     return glm::dot(aside, aside) <= reach * reach;
   };
-  std::size_t bent = camera.inside.count > 0 ? pixels : 0;
+  std::size_t bent = camera.inside.latest != 0 ? pixels : 0;
   for (int pixel = 0; bent < pixels && pixel < camera.width * camera.height; ++pixel) {
     const int column = pixel % camera.width, row = pixel / camera.width;
     const float x = 2 * (static_cast<float>(column) + 0.5f) / width - 1, y = 1 - 2 * (static_cast<float>(row) + 0.5f) / height;
