@@ -14,8 +14,6 @@ namespace {
 /// The pixels that a kernel of Smoothing may need, in the mean of all light: with more, caustics are smoothed in larger blocks.
 constexpr double most_needed = 24;
 
-Noisy means(const Blocks& blocks, const Noisy& layer) { return {mean_of_blocks(blocks, layer.rgb), mean_of_blocks(blocks, layer.draw)}; }
-
 /// The pixels that a kernel of single ones would need, in the mean of all light. layer: with a value for each block.
 double pixels_needed(const Blocks& blocks, const Noisy& layer)
 {
@@ -28,16 +26,24 @@ double pixels_needed(const Blocks& blocks, const Noisy& layer)
   return all > 0 ? needed / all * blocks.edge * blocks.edge : 1;
 }
 
-/// Adds to the draw of a layer in blocks what these hide of the picture: about as much as blocks twice as large hide of it.
+/// Adds to the draw of a layer in blocks what these hide of the picture: about as much as blocks twice as large hide of it, and no more
+/// than there is.
 void add_hidden(const Blocks& blocks, Noisy& layer)
 {
   const Blocks pairs{blocks.across(), blocks.down(), 2};
   const std::vector<float> larger = between_blocks(pairs, mean_of_blocks(pairs, layer.rgb));
-  for (std::size_t i = 0; i < layer.draw.size(); ++i)
-    layer.draw[i] = std::copysign(std::hypot(layer.draw[i], layer.rgb[i] - larger[i]), layer.draw[i]);
+  for (std::size_t i = 0; i < layer.draw.size(); ++i) {
+    const float hidden = std::min(std::abs(layer.rgb[i] - larger[i]), std::abs(layer.rgb[i]));
+    layer.draw[i] = std::copysign(std::hypot(layer.draw[i], hidden), layer.draw[i]);
+  }
 }
 
 } // namespace
+
+Noisy means(const Blocks& blocks, const Noisy& layer)
+{
+  return {mean_of_blocks(blocks, layer.rgb), layer.draw.empty() ? layer.draw : mean_of_blocks(blocks, layer.draw)};
+}
 
 Noisy between(const Blocks& blocks, const Noisy& layer)
 {

@@ -14,6 +14,7 @@ struct Noisy {
   std::vector<float> rgb, draw;
 };
 
+Noisy means(const Blocks& blocks, const Noisy& layer);
 /// layer: with a value for each block. With one for each pixel, as between_blocks().
 Noisy between(const Blocks& blocks, const Noisy& layer);
 

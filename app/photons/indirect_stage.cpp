@@ -102,6 +102,15 @@ public:
     });
   }
 
+  /// As large a part of the first pass as photons of caustics have, where a pass has more than a few steps.
+  bool look() override
+  {
+    const double part_of_pass = static_cast<double>(world_.first.rounds) / world_.tables.rounds;
+    if (tables_.photons_per_pass < 1 << 16 || part() >= part_of_pass) return true;
+    step(0);
+    return false;
+  }
+
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
     const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };

@@ -324,6 +324,8 @@ private:
       layer.draw = std::move(first.draw);
     } else if (smoothing_ && smooths_seen_ && has_halves(stage)) {
       timed([&] { smoothing_->pixels().spread(layer.rgb, layer.draw); });
+    } else if (wants_first) { // photons of a stage that has no first picture of its own
+      layer = between(world_.first.blocks, means(world_.first.blocks, layer));
     }
     return layer;
   }
