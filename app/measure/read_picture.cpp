@@ -53,8 +53,19 @@ LinearPicture linear(image::Image picture, const std::filesystem::path& file)
 {
   image::Rgb rgb = image::rgb_of(picture, file.string());
   if (picture.integers) decode(rgb.values);
-  return {picture.width, picture.height, std::move(rgb.values), file.string(), rgb.grey, std::move(picture.attributes)};
+  return {picture.width, picture.height, std::move(rgb.values), file.string(), rgb.grey, picture.integers, std::move(picture.attributes)};
 }
+
+std::vector<job::Layer> layers_of(const image::Image& picture, const std::filesystem::path& file)
+{
+  std::vector<job::Layer> layers;
+  for (const std::string& name : layer_names(picture))
+    if (std::ranges::count(picture.channels, name + ".G") == 1 && std::ranges::count(picture.channels, name + ".B") == 1)
+      layers.push_back({name, linear(layer_of(picture, name, file.string()), file).rgb});
+  return layers;
+}
+
+bool has_channel(const image::Image& picture, const char* name) { return std::ranges::count(picture.channels, name) > 0; }
 
 } // namespace
 
@@ -63,11 +74,22 @@ LinearPicture read_linear_rgb(const std::filesystem::path& file) { return linear
 LinearPicture read_linear_rgb(const std::filesystem::path& file, std::vector<job::Layer>& layers)
 {
   const image::Image picture = image::read_image(file);
-  layers.clear();
-  for (const std::string& name : layer_names(picture))
-    if (std::ranges::count(picture.channels, name + ".G") == 1 && std::ranges::count(picture.channels, name + ".B") == 1)
-      layers.push_back({name, linear(layer_of(picture, name, file.string()), file).rgb});
+  layers = layers_of(picture, file);
   return linear(picture, file);
+}
+
+OpenedPicture open_picture(const std::filesystem::path& file)
+{
+  image::Image picture = image::read_image(file);
+  OpenedPicture opened;
+  opened.layers = layers_of(picture, file);
+  const bool has_colours = has_channel(picture, "R") && has_channel(picture, "G") && has_channel(picture, "B");
+  if (!has_colours && !has_channel(picture, "Y") && !opened.layers.empty()) {
+    opened.stands_in = opened.layers.front().name;
+    picture = layer_of(picture, opened.stands_in, file.string());
+  }
+  opened.picture = linear(std::move(picture), file);
+  return opened;
 }
 
 LinearPicture read_linear_layer(const std::filesystem::path& file, const std::string& layer)

@@ -14,6 +14,7 @@ struct LinearPicture {
   std::vector<float> rgb;                        ///< linear sRGB, 3 a pixel, rows from the top
   std::string name;                              ///< the file
   bool grey = false;                             ///< the file has one channel, here thrice
+  bool decoded = false;                          ///< the file has integers, which were sRGB-encoded
   std::map<std::string, std::string> attributes; ///< those of the file
 
   Pixels pixels() const { return {width, height, rgb, name}; }
@@ -27,6 +28,15 @@ LinearPicture read_linear_rgb(const std::filesystem::path& file);
 LinearPicture read_linear_rgb(const std::filesystem::path& file, std::vector<job::Layer>& layers);
 /// The same of one of its layers, whose channels are LAYER.R, LAYER.G, LAYER.B. Throws bad_input naming the layers there are.
 LinearPicture read_linear_layer(const std::filesystem::path& file, const std::string& layer);
+
+/// As people open what any program wrote.
+struct OpenedPicture {
+  LinearPicture picture;
+  std::vector<job::Layer> layers; ///< those of the file
+  std::string stands_in;          ///< the file has no R, G, B or Y of its own: its first layer, which the picture is; else empty
+};
+/// As read_linear_rgb, and where the file has layers alone ("caustic.R"), the first of them. Throws bad_input as that does.
+OpenedPicture open_picture(const std::filesystem::path& file);
 
 /// One value a pixel: 1 where any of R, G, B (or Y) is not 0, else 0. Throws bad_input naming the file: as above, another size than
 /// width x height, NaN, or no pixel that counts.
