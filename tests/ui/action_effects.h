@@ -47,6 +47,7 @@ inline void add_file_and_edit(Effects& all)
   all["New scene: inverse"] = {{}, begins("inverse")};
   all["Open..."] = {{}, asks(Question::open)};
   all["Open history..."] = {{}, asks(Question::open_history)};
+  all["Open pictures..."] = {{}, asks(Question::open_pictures)};
   all["Reopen the last session"] = {[](Desk& d) { d.workbench.offer_earlier(true); }, [](Desk& d) { return d.workbench.take_reopen(); }};
   all["Save preset"] = {
       [](Desk& d) { d.edit(2.5); },
@@ -168,6 +169,29 @@ inline void add_run_and_view(Effects& all)
 
   all["Flip"] = {compare_with_pin, [](Desk& d) { return d.comparing().comparison().flip; }};
   all["Difference"] = {compare_with_pin, [](Desk& d) { return d.comparing().comparison().difference; }};
+  const auto arranges = [](Arrangement arrangement) {
+    return Effect{compare_with_pin, [arrangement](Desk& d) { return d.comparing().comparison().arrangement == arrangement; }};
+  };
+  all["Split"] = arranges(Arrangement::split);
+  all["Side by side"] = arranges(Arrangement::side_by_side);
+  all["Copy metrics"] = {[](Desk& d) {
+                           compare_with_pin(d);
+                           d.apply(command::Arrange{Arrangement::split});
+                           EXPECT_TRUE(d.comes_to([](Desk& desk) { return desk.comparing().metrics() != nullptr; }));
+                         },
+                         copies("rel_l2")};
+  all["Picture before"] = all["Picture after"] = {pin, [](Desk& d) { return d.comparing().comparison().shown != 0; }}; // two, round again
+  const auto pin_eight = [](Desk& d) {
+    for (int i = 0; i < 8; ++i) pin(d);
+  };
+  const auto pin_id = [](Desk& d, std::size_t number) { return d.comparing().pinned().all()[number - 2].id; };
+  for (std::size_t i = 2; i <= 9; ++i) {
+    all[fmt::format("Picture {}", i)] = {pin_eight, [=](Desk& d) { return d.comparing().comparison().shown == pin_id(d, i); }};
+    all[fmt::format("Compare with picture {}", i)] = {pin_eight, [=](Desk& d) { return d.comparing().comparison().pin == pin_id(d, i); }};
+  }
+  all["Picture 1"] = {[](Desk& d) { pin(d), d.apply(command::ShowPicture{d.comparing().pinned().all().front().id}); },
+                      [](Desk& d) { return d.comparing().comparison().shown == 0; }};
+  all["Compare with picture 1"] = {{}, [](Desk& d) { return d.comparing().comparison().pin == Comparison::run_in_hand; }};
   all["Compare with the next"] = {pin, [](Desk& d) { return d.comparing().comparison().pin != 0; }};
   all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); }, [](Desk& d) { return d.chosen().look.fit; }};
   all["Actual size"] = {{}, [](Desk& d) { return !d.chosen().look.fit && d.chosen().look.zoom == 1; }};

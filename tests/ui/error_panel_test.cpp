@@ -291,7 +291,7 @@ TEST(PinnedRuns, WhatIsNoHistoryIsRefusedByName)
   const auto refusal = [](const fs::path& path) { return refusal_of([&] { read_pin(path); }); };
   EXPECT_THAT(refusal(folder.path()), HasSubstr("history.csv"));
   EXPECT_THAT(refusal(folder.path() / "none"), HasSubstr("none: there is no such run; expected the folder of a run"));
-  EXPECT_THAT(refusal(folder.write("a.png", "no picture")), HasSubstr("a.png: is no run's history; expected the folder of a run"));
+  EXPECT_THAT(refusal(folder.write("a.txt", "no run")), HasSubstr("a.txt: is no run's history; expected the folder of a run"));
   EXPECT_THAT(refusal(folder.write("other.json", "{}")), HasSubstr("other.json: is no run's history"));
   EXPECT_THAT(refusal(folder.write("times.csv", "frame,draw_ms\n1,2\n")), HasSubstr("times.csv"));
   EXPECT_THAT(refusal(folder.write("empty.csv", "")), HasSubstr("empty.csv"));

@@ -225,7 +225,7 @@ TEST_F(LayoutTest, ThePaletteSaysWhyNot)
   open_palette();
   type("compare with the next");
   press(ImGuiKey_Enter);
-  EXPECT_EQ(only_message(workbench), "Compare with the next: no run is pinned");
+  EXPECT_EQ(only_message(workbench), "Compare with the next: no run is pinned and no picture is open");
 }
 
 TEST_F(LayoutTest, EscapeClosesThePaletteAndNotTheRun)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of docs/window-panels.md and docs/window.md: panels beside a picture that follows them, while real X events drag a control
-// point, choose another light, drag a ball by its arrow. With the folder docs in NEPHROID_PICTURES they are written there. What they are to
-// show is tested all the same. Skipped where there is no Xvfb, no xdotool or no ImageMagick.
+// The pictures of docs/window-panels.md, docs/window-pictures.md and docs/window.md: panels beside a picture that follows them, while real
+// X events drag a control point, choose another light, compare two pictures, drag a ball by its arrow. With the folder docs in
+// NEPHROID_PICTURES they are written there. What they are to show is tested all the same. Skipped where there is no Xvfb, no xdotool or no
+// ImageMagick.
 #include "optics/dispersion.h"
 #include "real_window.h"
 #include "scenes.h"
@@ -216,6 +217,30 @@ TEST_F(PanelPictures, AnImpossibleFieldIsSaid)
   EXPECT_EQ(runs_begun(window), 1) << "the run goes on";
   EXPECT_EQ(window.quit().exit_code, 0);
   EXPECT_EQ(preset::read_preset(file).scene.camera.fov_deg, 34);
+}
+
+/// The picture that README.md shows, as if another program had made it, beside the run that begins; then both cut at a line.
+TEST_F(PanelPictures, TwoPicturesAreCompared)
+{
+  const std::string preset = NEPHROID_SOURCE_DIR "/presets/first-light.json", png = NEPHROID_SOURCE_DIR "/docs/first-light.png";
+  test::HeadlessWindow<> like(size, "runs", preset);
+  like.apply({command::Arrange{Arrangement::split}});
+  const Canvas& canvas = like.view().canvas();
+  const double half = canvas.size[0] / 2;
+  const Canvas left{canvas.corner, {half - 6, canvas.size[1]}}, right{{canvas.corner[0] + half + 6, canvas.corner[1]}, left.size};
+  test::PlayedWindow window(preset, {png, "--layout", "runs", "--size", fmt::format("{}x{}", size[0], size[1])}, folder.path());
+  window.until("a picture of the run", [&] { return picture_in(canvas)(window.picture("before.png")); });
+  window.chord({"shift"}, "2");
+  window.key("v");
+  const auto both = [&](const image::Image& picture) { return picture_in(left)(picture) && picture_in(right)(picture); };
+  window.move({static_cast<int>(canvas.corner[0] + 0.7 * half), static_cast<int>(canvas.corner[1] + canvas.size[1] / 2)});
+  taken(window, "window-compared.png", "both pictures side by side", both);
+  window.key("c");
+  const Pixel line{static_cast<int>(canvas.corner[0] + half), static_cast<int>(canvas.corner[1] + canvas.size[1] / 3)};
+  window.until("both in one place", [&] { return both(window.picture("split.png")); });
+  window.drag(line, {line[0] + 100, line[1]});
+  taken(window, "window-split.png", "both pictures cut at a line", both);
+  EXPECT_EQ(window.quit().exit_code, 0);
 }
 
 constexpr double right_by = 0.8; ///< metres

@@ -95,15 +95,14 @@ TEST_F(RunsPanelTest, ShowsARunInTheView)
   edit([](preset::Preset& p) { p.scene.camera.position[2] = 0; });
   const std::string show = fmt::format("show {}", pins()[0].id);
   click_on(show);
-  EXPECT_TRUE(workbench.comparing().comparison().flip);
-  EXPECT_EQ(workbench.comparing().comparison().pin, pins()[0].id);
+  EXPECT_EQ(workbench.comparing().comparison().shown, pins()[0].id);
   frames(2);
   EXPECT_EQ(view().shown().label, "\"Test\"");
   click_on("show 0");
-  EXPECT_FALSE(workbench.comparing().comparison().flip);
+  EXPECT_EQ(workbench.comparing().comparison().shown, 0u);
   click_on(show);
   click_on(show);
-  EXPECT_FALSE(workbench.comparing().comparison().flip) << "pressed again, back";
+  EXPECT_EQ(workbench.comparing().comparison().shown, 0u) << "pressed again, back";
 }
 
 TEST_F(RunsPanelTest, TakesTheTakenPresetAsOneEdit)

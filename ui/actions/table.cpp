@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table, with all menus but the two long ones, "Select" and "View".
+// The table, with all menus but the long ones, "Select", "View" and "Pictures".
 #include "ui/actions/table.h"
 
 #include "base/error.h"
@@ -49,6 +49,8 @@ std::vector<Action> file_actions()
       {"Open...", ctrl | ImGuiKey_O, "A preset file, or one of the shipped presets", always, ask<Question::open>},
       {"Open history...", ctrl | shift | ImGuiKey_O, "Pin an earlier run by its folder or its history.csv", always,
        ask<Question::open_history>},
+      {"Open pictures...", 0, "Pictures of any program (.exr, .hdr, .png, ...), to look at and to compare", always,
+       ask<Question::open_pictures>},
       {"Reopen the last session", 0, "The session of the window that was closed or killed last", [](C c) { return c.has_earlier_session; },
        push<command::ReopenSession>, [](C) { return std::string("there is no earlier session"); }},
       {"Save preset", ctrl | ImGuiKey_S, "Write the preset as it is now to its file", has_preset, save},
@@ -243,6 +245,7 @@ std::span<const Action> actions()
     add("Camera", camera_actions());
     add("Run", run_actions());
     add("View", view_actions());
+    add("Pictures", picture_actions());
     add("Window", window_actions());
     add("Help", help_actions());
     return actions;

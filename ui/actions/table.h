@@ -12,6 +12,7 @@ namespace nephroid::ui {
 
 std::vector<Action> select_actions();
 std::vector<Action> view_actions();
+std::vector<Action> picture_actions();
 
 using C = const Context&;
 

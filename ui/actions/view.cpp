@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The menu "View": how the picture is shown, and what it is held against.
+// The menu "View": how the picture is shown.
 #include "ui/actions/table.h"
 #include "ui/inspector/pixels.h"
 
@@ -25,9 +25,12 @@ void expose(C c)
   look(c, [](Look& l) { l.exposure_stops += half_stops / 2.0; });
 }
 
+/// There is a picture in the View, the run's or another.
+bool is_shown(C c) { return c.comparing.source() != nullptr; }
+
 void actual_size(C c)
 {
-  const job::Picture& picture = *c.run.snapshot()->picture;
+  const job::Picture& picture = *c.comparing.source();
   look(c, [&](Look& l) {
     l.fit = false;
     l.zoom = 1;
@@ -35,41 +38,18 @@ void actual_size(C c)
   });
 }
 
-// What is on can be turned off, whatever became of the other picture.
-bool can_flip(C c) { return c.comparing.comparison().flip || c.comparing.why_not().empty(); }
-bool can_difference(C c) { return c.comparing.comparison().difference || c.comparing.why_not().empty(); }
-std::string why_not_comparable(C c) { return c.comparing.why_not(); }
-bool has_choice(C c) { return !c.comparing.pinned().all().empty(); }
-std::string no_choice(C) { return "no run is pinned"; }
-
-void flip(C c) { c.push(command::Flip{!c.comparing.comparison().flip}); }
-void flip_back(C c)
+bool has_layers(C c) { return c.comparing.source() && !c.comparing.source()->layers.empty(); }
+std::string no_layers(C c)
 {
-  if (c.comparing.comparison().flip) c.push(command::Flip{false});
+  if (c.comparing.comparison().shown != 0) return c.comparing.name() + " has no layers";
+  return has_picture(c) ? "this engine's picture has no layers" : "there is no picture yet";
 }
-
-void difference(C c)
-{
-  const Comparison& now = c.comparing.comparison();
-  c.push(command::ShowDifference{!now.difference, now.metric, now.scale});
-}
-
-/// The reference, then each pinned run, and round again.
-void compare_with_next(C c)
-{
-  const std::vector<PinnedRun>& runs = c.comparing.pinned().all();
-  const auto next = std::find_if(runs.begin(), runs.end(), [&](const PinnedRun& run) { return run.id > c.comparing.comparison().pin; });
-  c.push(command::CompareWith{next == runs.end() ? 0 : next->id});
-}
-
-bool has_layers(C c) { return has_picture(c) && !c.run.snapshot()->picture->layers.empty(); }
-std::string no_layers(C c) { return has_picture(c) ? "this engine's picture has no layers" : "there is no picture yet"; }
 
 /// All of the light, then each layer, and round again; back where step is -1.
 template <int step>
 void next_layer(C c)
 {
-  const std::vector<job::Layer>& layers = c.run.snapshot()->picture->layers;
+  const std::vector<job::Layer>& layers = c.comparing.source()->layers;
   const auto now =
       std::find_if(layers.begin(), layers.end(), [&](const job::Layer& l) { return l.name == c.comparing.comparison().layer; });
   const auto count = std::ssize(layers) + 1;
@@ -96,7 +76,7 @@ bool can_step(C c) { return has_pixel(c) && c.selection() == Selection{}; }
 void inspect(C c)
 {
   if (c.chosen.pixel) return c.push(command::InspectPixel{});
-  const job::Picture& picture = *c.run.snapshot()->picture;
+  const job::Picture& picture = *c.comparing.source();
   const Look look = c.look();
   const auto middle = [&](std::size_t i, int length) {
     return std::clamp(look.fit ? length / 2 : static_cast<int>(std::clamp(look.centre[i], 0.0, 1e9)), 0, length - 1);
@@ -107,8 +87,8 @@ void inspect(C c)
 template <int dx, int dy>
 void move_pixel(C c)
 {
-  if (!has_picture(c)) return;
-  const job::Picture& picture = *c.run.snapshot()->picture;
+  if (!is_shown(c)) return;
+  const job::Picture& picture = *c.comparing.source();
   const auto [x, y] = *c.chosen.pixel;
   c.push(command::InspectPixel{std::array{std::clamp(x + dx, 0, picture.width - 1), std::clamp(y + dy, 0, picture.height - 1)}});
 }
@@ -120,7 +100,7 @@ bool has_region(C c) { return c.chosen.region.has_value(); }
 
 void whole_region(C c)
 {
-  const job::Picture& picture = *c.run.snapshot()->picture;
+  const job::Picture& picture = *c.comparing.source();
   c.push(command::SelectRegion{c.chosen.region ? std::nullopt : std::optional(PixelRegion{{0, 0}, {picture.width, picture.height}})});
 }
 
@@ -129,12 +109,8 @@ void whole_region(C c)
 std::vector<Action> view_actions()
 {
   return {
-      {"Flip", ImGuiKey_R, "While held: the reference, or the pinned run that is compared with", can_flip, flip, why_not_comparable,
-       flip_back},
-      {"Difference", ImGuiKey_D, "The difference from it in false colour", can_difference, difference, why_not_comparable},
-      {"Compare with the next", ImGuiKey_N, "The reference, then each pinned run", has_choice, compare_with_next, no_choice},
-      {"Fit", ImGuiKey_F, "The whole picture in the panel", has_picture, [](C c) { look(c, [](Look& l) { l.fit = true; }); }},
-      {"Actual size", ImGuiKey_1, "One pixel of the picture is one of the screen", has_picture, actual_size},
+      {"Fit", ImGuiKey_F, "The whole picture in the panel", is_shown, [](C c) { look(c, [](Look& l) { l.fit = true; }); }},
+      {"Actual size", shift | ImGuiKey_F, "One pixel of the picture is one of the screen", is_shown, actual_size},
       repeating({"Brighter", ImGuiKey_E, "Half a stop more exposure", always, expose<1>}),
       repeating({"Darker", shift | ImGuiKey_E, "Half a stop less exposure", always, expose<-1>}),
       {"Exposure 0", ImGuiKey_0, "The picture as image.png shows it", always, [](C c) { look(c, [](Look& l) { l.exposure_stops = 0; }); }},
@@ -144,14 +120,14 @@ std::vector<Action> view_actions()
       tone_action("Tone as image.png", "sRGB, clipped at 1", ToneCurve::standard),
       tone_action("Filmic tone", "A soft shoulder for pictures with a wide range", ToneCurve::filmic),
       tone_action("False colour", "The luminance as a colour, on a logarithmic scale", ToneCurve::false_colour),
-      {"Inspect pixel", ImGuiKey_I, "The pixel in the middle, or none; Alt and a click takes another", has_picture, inspect, nullptr,
-       nullptr, has_pixel},
+      {"Inspect pixel", ImGuiKey_I, "The pixel in the middle, or none; Alt and a click takes another", is_shown, inspect, nullptr, nullptr,
+       has_pixel},
       repeating({"Pixel to the left", ImGuiKey_LeftArrow, "Inspect the pixel beside", can_step, move_pixel<-1, 0>}),
       repeating({"Pixel to the right", ImGuiKey_RightArrow, "Inspect the pixel beside", can_step, move_pixel<1, 0>}),
       repeating({"Pixel above", ImGuiKey_UpArrow, "Inspect the pixel above", can_step, move_pixel<0, -1>}),
       repeating({"Pixel below", ImGuiKey_DownArrow, "Inspect the pixel below", can_step, move_pixel<0, 1>}),
       {"Copy pixel", 0, "The values of the pixel that is inspected, with tabs between", has_pixel, copy_pixel, no_pixel},
-      {"Statistics of the picture", shift | ImGuiKey_I, "Of all its pixels, or none; Alt and a drag takes a rectangle", has_picture,
+      {"Statistics of the picture", shift | ImGuiKey_I, "Of all its pixels, or none; Alt and a drag takes a rectangle", is_shown,
        whole_region, nullptr, nullptr, has_region},
       {"Find a preset", ctrl | ImGuiKey_P, "The panel Presets, to type what is looked for", always,
        [](C c) {

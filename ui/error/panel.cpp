@@ -24,7 +24,7 @@ std::vector<std::string> all_metrics(const Context& context)
       if (std::find(all.begin(), all.end(), metric) == all.end()) all.push_back(std::move(metric));
   };
   if (const auto history = context.run.error_history()) add(*history);
-  for (const PinnedRun& pin : context.comparing.pinned().all()) add(*pin.history);
+  for (const PinnedRun& pin : context.comparing.pinned().runs()) add(*pin.history);
   return all;
 }
 
@@ -59,7 +59,7 @@ std::string plot_as_csv(const Context& context)
 {
   const std::string metric = shown_metric(context);
   std::vector<NamedLines> runs;
-  for (const PinnedRun& pin : context.comparing.pinned().all())
+  for (const PinnedRun& pin : context.comparing.pinned().runs())
     if (pin.shown) runs.push_back({pin.name, lines_of(*pin.history, metric)});
   if (const auto history = context.run.error_history()) runs.push_back({this_run, lines_of(*history, metric)});
   return plot_csv(runs, target_of(context, metric));
@@ -79,7 +79,7 @@ void ErrorPanel::collect(const Context& context)
   contents_.target = target_of(context, contents_.metric);
   contents_.runs.clear();
   std::erase_if(known_, [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
-  for (const PinnedRun& pin : context.comparing.pinned().all())
+  for (const PinnedRun& pin : context.comparing.pinned().runs())
     if (const RunLines& of_pin = lines(pin.id, pin.history); pin.shown && !of_pin.empty())
       contents_.runs.push_back({pin.name, pin.colour, 1.5f, &of_pin});
   if (const RunLines& present = lines(0, context.run.error_history()); !present.empty())
@@ -91,9 +91,8 @@ void ErrorPanel::draw(const Context& context)
   collect(context);
   draw_toolbar(context);
   const float em = ImGui::GetFontSize(), height = ImGui::GetContentRegionAvail().y;
-  const float pins = context.comparing.pinned().all().empty()
-                         ? 0
-                         : std::min(0.45f * height, 4.2f * em * static_cast<float>(context.comparing.pinned().all().size()));
+  const std::vector<PinnedRun> runs = context.comparing.pinned().runs();
+  const float pins = std::min(0.45f * height, 4.2f * em * static_cast<float>(runs.size()));
   plot_.draw(contents_, std::max(height - pins - ImGui::GetStyle().ItemSpacing.y, 8 * em));
   if (contents_.runs.empty()) {
     const auto& [x, y, width, plot_height] = plot_.area();
@@ -101,7 +100,7 @@ void ErrorPanel::draw(const Context& context)
   }
   if (pins == 0) return;
   if (ImGui::BeginChild("pins"))
-    for (const PinnedRun& pin : context.comparing.pinned().all()) {
+    for (const PinnedRun& pin : runs) {
       ImGui::PushID(static_cast<int>(pin.id));
       draw_pin(context, pin);
       ImGui::PopID();

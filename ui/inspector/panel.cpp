@@ -111,7 +111,7 @@ void draw_histogram(const RegionStatistics& statistics)
 void InspectorPanel::draw(const Context& context)
 {
   places_.clear();
-  if (!context.run.snapshot()) {
+  if (!context.comparing.source()) {
     draw_wrapped(colour::quiet_text, "There is no picture yet.");
     return;
   }
@@ -231,9 +231,8 @@ void InspectorPanel::draw_region(const Context& context)
     return;
   }
   const HeldPicture other = context.comparing.other_picture();
-  const PinnedRun* pin = context.comparing.pinned().find(context.comparing.comparison().pin);
-  want_statistics(statistics_, context.tasks,
-                  {picture, other, pin ? pin->name : "reference", *region, context.preset() ? context.preset()->white : 1});
+  const std::string other_name = context.comparing.comparison().pin == 0 ? "reference" : other.pixels.name;
+  want_statistics(statistics_, context.tasks, {picture, other, other_name, *region, context.preset() ? context.preset()->white : 1});
   const auto& statistics = statistics_.newest();
   if (!statistics) return draw_wrapped(colour::quiet_text, "The statistics are being made.");
   if (places_.button("Copy as CSV", "copy region")) ImGui::SetClipboardText(to_csv(*statistics).c_str());

@@ -84,8 +84,9 @@ Histogram histogram(const std::vector<const std::vector<Rgb>*>& pictures, double
 
 std::vector<PixelRow> pixel_rows(const Context& context, const std::array<int, 2>& pixel)
 {
-  if (!context.run.snapshot() || !context.preset()) return {};
-  const job::Picture& picture = *context.run.snapshot()->picture;
+  const auto source = context.comparing.source();
+  if (!source || !context.preset()) return {};
+  const job::Picture& picture = *source;
   const auto [x, y] = pixel;
   if (x < 0 || y < 0 || x >= picture.width || y >= picture.height) return {};
   const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x));
@@ -100,18 +101,18 @@ std::vector<PixelRow> pixel_rows(const Context& context, const std::array<int, 2
     for (float& channel : rows.back().rgb) channel = std::abs(channel);
     rows.back().luminance = std::abs(rows.back().luminance);
   };
-  add("this run", value(picture.rgb), true);
+  add(context.comparing.name(), value(picture.rgb), true);
   for (const job::Layer& layer : picture.layers) add(layer.name, value(layer.rgb), true);
   if (!picture.error_draw.empty()) add_error("its error, one draw", value(picture.error_draw));
   const HeldPicture other = context.comparing.other_picture();
   if (!other.owner) return rows;
   const Comparison& comparison = context.comparing.comparison();
-  const PinnedRun* pin = context.comparing.pinned().find(comparison.pin);
   const std::array<float, 3> a = value(context.comparing.picture().pixels.rgb), b = value(other.pixels.rgb);
-  add(fmt::format("{}{}{}", pin ? fmt::format("\"{}\"", pin->name) : "reference", comparison.layer.empty() ? "" : ": ", comparison.layer),
-      b, true);
+  const std::string name = comparison.pin == 0 ? "reference" : context.comparing.other_name();
+  add(name + (comparison.layer.empty() ? "" : ": " + comparison.layer), b, true);
   add("difference", {a[0] - b[0], a[1] - b[1], a[2] - b[2]}, false);
-  if (const measure::Reference* reference = context.run.reference().get(); !pin && reference && !reference->error_draw.empty())
+  if (const measure::Reference* reference = context.run.reference().get();
+      comparison.pin == 0 && reference && !reference->error_draw.empty())
     add_error("reference's standard error", value(reference->error_draw));
   return rows;
 }

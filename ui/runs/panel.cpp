@@ -20,6 +20,14 @@ RunRow row_of(const PinnedRun& run)
 {
   RunRow row{.pin = run.id, .name = run.name, .colour = run.colour};
   row.has_picture = run.picture != nullptr;
+  if (!run.is_run()) {
+    row.file = run.file.string();
+    row.read_as = run.read_as;
+    row.engine = "picture";
+    row.seconds = fmt::format("{} x {}", run.picture->width, run.picture->height);
+    row.steps = "pixels";
+    return row;
+  }
   if (const auto& record = run.record) {
     if (!record->engine.empty()) row.engine = record->engine;
     if (record->steps) row.steps = fmt::format("{} {}{}", *record->steps, record->steps_name, record->finished ? "" : "...");
@@ -105,7 +113,7 @@ const PresetDifferences::Known& PresetDifferences::of(const RunRow& row, const C
   const auto present = context.edits ? context.edits->shared() : nullptr;
   if (known.of == row.preset && known.present == present && !known.in_short.empty()) return known;
   known = {row.preset, present, {}, {}};
-  if (!row.preset && row.pin != 0) known.in_short = "its preset is not known";
+  if (!row.preset && row.pin != 0) known.in_short = row.file.empty() ? "its preset is not known" : row.read_as + "; " + row.file;
   if (!row.preset || !present) return known;
   try {
     const std::vector<preset::Difference> differences = preset::differences(*present, *row.preset);
@@ -138,10 +146,12 @@ void RunsPanel::draw(const Context& context)
   action_button("Pin this run", context);
   ImGui::SameLine();
   action_button("Open history...", context);
+  ImGui::SameLine();
+  action_button("Open pictures...", context);
   sweep_.draw(context, places_);
   if (rows_.empty()) {
     draw_wrapped(colour::quiet_text,
-                 "Open a preset: its run is listed here, and each run that is pinned. Or open the history of an earlier run.");
+                 "Open a preset: its run is listed here, and each run that is pinned. Or open the history of an earlier run, or pictures.");
     return;
   }
   draw_table(context);
@@ -158,7 +168,7 @@ void RunsPanel::draw_table(const Context& context)
   ImGui::TableSetupColumn("Run", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("Work", ImGuiTableColumnFlags_WidthFixed, 5.5f * em);
   ImGui::TableSetupColumn("Error", ImGuiTableColumnFlags_WidthFixed, 7.5f * em);
-  ImGui::TableSetupColumn("##buttons", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_NoSort, 6.5f * em);
+  ImGui::TableSetupColumn("##buttons", ImGuiTableColumnFlags_WidthFixed | ImGuiTableColumnFlags_NoSort, 7.5f * em);
   ImGui::TableHeadersRow();
   if (const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs(); specs && specs->SpecsCount > 0)
     std::stable_sort(rows_.begin(), rows_.end(), [&](const RunRow& a, const RunRow& b) { return is_before(a, b, specs->Specs[0]); });
@@ -202,25 +212,31 @@ void RunsPanel::draw_buttons(const Context& context, const RunRow& row)
     ImGui::EndDisabled();
     return pressed;
   };
+  const auto toggle = [&](const char* label, const std::string& place, bool on, const char* help) {
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    const bool pressed = button(label, place, row.has_picture, row.has_picture ? help : "It has no picture");
+    if (on) ImGui::PopStyleColor();
+    return pressed;
+  };
   const Comparison& comparison = context.comparing.comparison();
-  const bool shown = row.pin == 0 ? !comparison.flip && !comparison.difference : comparison.flip && comparison.pin == row.pin;
-  if (shown) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-  const bool show = button("Show", fmt::format("show {}", row.pin), row.has_picture,
-                           row.has_picture ? "This run's picture in the View; again: back to the run in hand" : "It has no picture");
-  if (shown) ImGui::PopStyleColor();
-  if (show && row.pin == 0)
-    context.push(command::ShowDifference{false, comparison.metric, comparison.scale});
-  else if (show)
-    context.push(command::CompareWith{row.pin});
-  if (show) context.push(command::Flip{row.pin != 0 && !shown});
+  const std::uint64_t as_other = row.pin == 0 ? Comparison::run_in_hand : row.pin;
+  const bool shown = comparison.shown == row.pin, compared = comparison.pin == as_other;
+  if (toggle("Show", fmt::format("show {}", row.pin), shown, "Its picture in the View; again: back to the run in hand"))
+    context.push(command::ShowPicture{shown ? 0 : row.pin});
   ImGui::SameLine();
+  const bool is_run = row.file.empty();
   if (row.pin == 0) {
     if (button("Pin", "pin", row.has_picture, "Keep its history and its picture, to compare later runs with"))
       context.push(command::PinRun{});
-    return;
-  }
-  if (button("Unpin", fmt::format("unpin {}", row.pin), true, "Forget this run")) context.push(command::Unpin{row.pin});
-  if (button("Take preset", fmt::format("take {}", row.pin), row.preset && context.preset(),
+  } else if (button(is_run ? "Unpin" : "Close", fmt::format("unpin {}", row.pin), true,
+                    is_run ? "Forget this run" : "Forget this picture; its file stays"))
+    context.push(command::Unpin{row.pin});
+  if (toggle("Compare", fmt::format("compare {}", row.pin), compared,
+             "What the View shows is compared with it; again: with the preset's reference"))
+    context.push(command::CompareWith{compared ? 0 : as_other});
+  if (row.pin == 0 || !is_run) return;
+  ImGui::SameLine();
+  if (button("Take", fmt::format("take {}", row.pin), row.preset && context.preset(),
              row.preset ? "Its preset in place of the present one, as an edit that can be undone" : "Its preset is not known"))
     context.push(taken(row, *context.preset()));
 }

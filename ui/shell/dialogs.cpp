@@ -38,6 +38,7 @@ const DialogKind& kind_of_dialog(Question question)
   static const DialogKind kinds[] = {{"", "", {}}, // in the order of Question
                                      {"Open a preset", "", {".json"}},
                                      {"Open the history of a run", "", {".csv"}},
+                                     {"Open pictures", "", {".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg", ".tif", ".tiff"}},
                                      {"Save the preset as", "-edited.json", {".json"}},
                                      {"Save the picture as", ".png", {".png", ".exr"}},
                                      {"Unsaved changes", "", {}},
@@ -191,6 +192,8 @@ void Dialogs::draw(Workbench& workbench, Commands& commands)
     draw_open(commands);
   else if (shown_ == Question::open_history)
     draw_open_history(commands);
+  else if (shown_ == Question::open_pictures)
+    draw_open_pictures(commands);
   else if (shown_ == Question::unsaved)
     draw_unsaved(workbench, commands);
   else
@@ -237,6 +240,14 @@ void Dialogs::draw_open_history(Commands& commands)
   const bool picked = pick_file();
   if (typed || picked) commands.push_back(command::PinFile{name_});
   ImGui::TextDisabled("Of a folder the picture is kept too. Dropping it on the window does the same.");
+}
+
+void Dialogs::draw_open_pictures(Commands& commands)
+{
+  const bool typed = choose_name("path of a picture", ImGui::GetFontSize() * 41, name_, "Open", !name_.empty());
+  const bool picked = pick_file();
+  if (typed || picked) commands.push_back(command::PinFile{name_, true});
+  ImGui::TextDisabled("Several at once: drop them on the panel Runs, which lists them.");
 }
 
 void Dialogs::draw_save(Commands& commands)

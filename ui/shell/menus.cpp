@@ -49,8 +49,10 @@ std::span<const MouseHabit> mouse_habits()
       {"Drop a preset or a glTF file", "Open it; a glTF file becomes a preset first"},
       {"Drop a run's folder or a history.csv", "Pin that run"},
       {"Drop a mesh (.obj, .ply, .stl)", "Make it an object of the scene"},
-      {"Drop a map (.hdr, .exr)", "Put it in place of the environment"},
-      {"Drop a picture (.png, .jpg, .tif)", "Engine inverse: the object casts it, in place of the first drawing"},
+      {"Drop a picture on the panel Runs", "Open it, to look at and to compare"},
+      {"Drop a map (.hdr, .exr) elsewhere", "Put it in place of the environment"},
+      {"Drop another picture (.png, .jpg, .tif) elsewhere",
+       "Engine inverse: the object casts it, in place of the first drawing; else open it"},
       {"Drop a dispersion file (.yml)", "Load it into the glass of the panel Dispersion"},
       {"On a plot: wheel, drag, double click", "Zoom, move, show everything"},
   };

@@ -42,7 +42,8 @@ bool is_over(job::State state)
   return state == job::State::finished || state == job::State::cancelled || state == job::State::failed || state == job::State::idle;
 }
 
-/// Pins the histories and opens the first preset that can be opened. Behind it only runs are expected: what is none leaves its message.
+/// Pins the histories and opens the first preset that can be opened. Behind it only runs and pictures are expected: what is none leaves its
+/// message.
 void open_first(Workbench& workbench, const Options& options)
 {
   bool opened = false;
@@ -215,7 +216,7 @@ private:
     if (window_.take_activity()) last_touch_ = Clock::now();
     workbench_.update();
     Commands commands = workspace_.draw(workbench_);
-    for (const std::string& file : window_.take_dropped()) commands.push_back(command::Open{file});
+    for (const std::string& file : window_.take_dropped()) commands.push_back(workspace_.dropped(file));
     if (window_.take_close_request()) commands.push_back(command::Quit{});
     window_.end_frame();
     workbench_.apply(commands); // before OpenGL draws, which may take longer than all else: an edit's run begins now

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/shell/workspace.h"
 
+#include "ui/runs/panel.h"
 #include "ui/shell/menus.h"
 #include "ui/shell/status_line.h"
 
@@ -116,6 +117,15 @@ Commands Workspace::draw(Workbench& workbench)
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
   guarded("commands", commands, [&] { palette_.draw(context, workbench.question() == Question::command); });
   return commands;
+}
+
+Command Workspace::dropped(const std::string& file)
+{
+  const ImGuiWindow* list = ImGui::FindWindowByName(RunsPanel::title);
+  const auto& [x, y] = ImGui::GetIO().MousePos;
+  const bool on_list = list && list->WasActive && !list->Hidden && list->Rect().Contains({x, y});
+  if (on_list && is_picture(file)) return command::PinFile{file, true};
+  return command::Open{file};
 }
 
 void Workspace::draw_panel(const Open& open, const Context& context)

@@ -20,6 +20,8 @@ public:
   /// Between ImGui::NewFrame and ImGui::Render. Returns what the person asked for; the caller gives it to Workbench::apply.
   /// No exception leaves it.
   Commands draw(Workbench& workbench);
+  /// What a file is dropped for where the mouse is now: a picture on the panel that lists pictures is opened there, all else as Open says.
+  static Command dropped(const std::string& file);
   /// One more panel; those of the table are there from the start. entry: its make is not called.
   void add(const PanelEntry& entry, std::unique_ptr<Panel> panel) { panels_.push_back({entry, std::move(panel)}); }
   const Dialogs& dialogs() const { return dialogs_; }

@@ -42,15 +42,25 @@ struct Look {
   bool operator==(const Look&) const = default;
 };
 
-/// What the View holds the run's picture against, and how. Nothing here needs a new run.
+/// How the View shows two pictures. split: both in one place, cut at a line that is dragged.
+enum class Arrangement { single, split, side_by_side };
+
+/// What the View shows, what it holds that against, and how. Nothing here needs a new run.
 struct Comparison {
-  std::uint64_t pin = 0;   ///< a pinned run (PinnedRun::id); 0: the reference
-  bool flip = false;       ///< the other picture is shown in place of the run's
+  static constexpr std::uint64_t run_in_hand = ~std::uint64_t{0};
+
+  std::uint64_t shown = 0; ///< a pinned run or picture (PinnedRun::id); 0: the run in hand
+  std::uint64_t pin = 0;   ///< what that is compared with: the same, or run_in_hand; 0: the reference
+  Arrangement arrangement = Arrangement::single;
+  double split = 0.5;      ///< where the line is, in parts of the picture's area of the panel, 0..1
+  bool flip = false;       ///< the other picture is shown in place of the first
   bool difference = false; ///< a map of their difference is shown; flip goes before it
   measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
   double scale = 0;  ///< the value at the end of the map's colours; 0: measure::colour_scale
   std::string layer; ///< of both pictures; empty: all of their light
   bool operator==(const Comparison&) const = default;
+  /// Whether the distance of the two is wanted.
+  bool measures() const { return shown != 0 || difference || arrangement != Arrangement::single; }
 };
 
 /// Pixels of the picture: from a column and row to before another.
@@ -79,13 +89,13 @@ struct Settings {
 };
 
 /// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
-enum class Question { none, open, open_history, save_preset, save_picture, unsaved, command, save_report };
+enum class Question { none, open, open_history, open_pictures, save_preset, save_picture, unsaved, command, save_report };
 
 namespace command {
 
 /// A preset file, or the name of a shipped preset: asks first where there are unsaved changes, unless sure. A run's folder or a table
 /// (.csv) is pinned as PinFile does; dispersion data (.yml) is loaded as LoadDispersion does. A map (.exr, .hdr) becomes the environment, a
-/// picture what the engine makes of it, a mesh an object, glTF a preset of its own.
+/// picture what the engine makes of it, else it is opened as PinFile does; a mesh an object, glTF a preset of its own.
 struct Open {
   std::string name;
   bool sure = false;
@@ -130,6 +140,15 @@ struct Flip {
 struct CompareWith {
   std::uint64_t pin = 0; ///< as Comparison::pin
 };
+struct ShowPicture {
+  std::uint64_t pin = 0; ///< as Comparison::shown
+};
+struct Arrange {
+  Arrangement arrangement = Arrangement::single;
+};
+struct MoveSplit {
+  double to = 0.5; ///< as Comparison::split
+};
 struct ShowDifference {
   bool on = true;
   measure::DifferenceMetric metric = measure::DifferenceMetric::lab;
@@ -149,9 +168,10 @@ struct SelectRegion {
 };
 /// Keeps the history and the picture of the run as they are now.
 struct PinRun {};
-/// The history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. Read in the background.
+/// A picture, or the history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. Read in the background.
 struct PinFile {
   std::filesystem::path path;
+  bool show = false; ///< a picture is then shown in the View
 };
 struct ChangePin {
   std::uint64_t pin = 0;
@@ -252,12 +272,13 @@ struct Quit {
 using Command =
     std::variant<command::Open, command::New, command::Edit, command::SetSweep, command::StartSweep, command::StopSweep,
                  command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel, command::Pause, command::SetLook,
-                 command::Flip, command::CompareWith, command::ShowDifference, command::ShowLayer, command::InspectPixel,
-                 command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin, command::Unpin, command::ChooseMetric,
-                 command::ChooseMaterial, command::LoadDispersion, command::Select, command::SetHandles, command::Nudged,
-                 command::SetBookmarks, command::Ask, command::SavePreset, command::SavePicture, command::OpenResult, command::WriteReport,
-                 command::Dismiss, command::ReopenSession, command::ReloadPreset, command::ToggleHelp, command::ResetLayout,
-                 command::KeepLayout, command::ShowPanel, command::SetAppearance, command::Report, command::Quit>;
+                 command::Flip, command::CompareWith, command::ShowPicture, command::Arrange, command::MoveSplit, command::ShowDifference,
+                 command::ShowLayer, command::InspectPixel, command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin,
+                 command::Unpin, command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion, command::Select,
+                 command::SetHandles, command::Nudged, command::SetBookmarks, command::Ask, command::SavePreset, command::SavePicture,
+                 command::OpenResult, command::WriteReport, command::Dismiss, command::ReopenSession, command::ReloadPreset,
+                 command::ToggleHelp, command::ResetLayout, command::KeepLayout, command::ShowPanel, command::SetAppearance,
+                 command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

@@ -50,23 +50,17 @@ const job::Layer* find_layer(const std::vector<job::Layer>& layers, const std::s
   return found == layers.end() ? nullptr : &*found;
 }
 
-/// Why a picture (its name as a sentence begins) has no such layer; empty where it has it, or where none is asked for.
-std::string why_no_layer(const std::string& picture, const std::vector<job::Layer>& layers, const std::string& name)
+std::shared_ptr<const ShownMetrics> measured(const HeldPicture& picture, const HeldPicture& other, measure::Which which)
 {
-  if (name.empty() || find_layer(layers, name)) return {};
-  if (layers.empty()) return fmt::format("{} has no layers, and \"{}\" is chosen", picture, name);
-  std::vector<std::string> names;
-  for (const job::Layer& layer : layers) names.push_back(layer.name);
-  return fmt::format("{} has no layer \"{}\", only {}", picture, name, fmt::join(names, ", "));
-}
-
-/// All of a picture or one of its layers; the layer is there. Other pixels have another owner.
-template <class Picture>
-HeldPicture held(const std::shared_ptr<const Picture>& of, const std::string& layer, const std::string& name)
-{
-  const job::Layer* found = layer.empty() ? nullptr : find_layer(of->layers, layer);
-  const std::vector<float>& rgb = found ? found->rgb : of->rgb;
-  return {std::shared_ptr<const void>(of, &rgb), {of->width, of->height, rgb, name}};
+  auto metrics = std::make_shared<ShownMetrics>();
+  metrics->picture = picture;
+  metrics->other = other;
+  try {
+    metrics->metrics = measure::compare(picture.pixels, other.pixels, {}, which);
+  } catch (const std::exception& error) {
+    metrics->error = error.what();
+  }
+  return metrics;
 }
 
 } // namespace
@@ -88,49 +82,148 @@ void Comparing::carry_out(const command::Unpin& c)
 {
   pinned_.remove(c.pin);
   if (comparison_.pin == c.pin) comparison_.pin = 0;
+  if (comparison_.shown == c.pin) comparison_.shown = 0;
 }
 
-std::string Comparing::why_no_picture() const
+void Comparing::carry_out(const command::CompareWith& c)
 {
-  if (!run_.snapshot()) return "there is no picture yet";
-  return why_no_layer("the run's picture", run_.snapshot()->picture->layers, comparison_.layer);
+  comparison_.pin = c.pin == Comparison::run_in_hand || pinned_.find(c.pin) ? c.pin : 0;
 }
 
-HeldPicture Comparing::picture() const
+Comparing::Side Comparing::side_of(const PinnedRun& pin) const
 {
-  if (!why_no_picture().empty()) return {};
-  return held(run_.snapshot()->picture, comparison_.layer, "the run");
+  const std::string quoted = '"' + pin.name + '"';
+  if (!pin.picture) return {.why_not = quoted + " has no picture: only its history was read"};
+  return {pin.picture, pin.picture->width, pin.picture->height, &pin.picture->rgb, &pin.picture->layers, pin.name, quoted};
 }
+
+Comparing::Side Comparing::run_side() const
+{
+  if (!run_.snapshot()) return {.why_not = "there is no picture yet"};
+  const auto& picture = run_.snapshot()->picture;
+  return {picture, picture->width, picture->height, &picture->rgb, &picture->layers, "the run", "the run's picture"};
+}
+
+Comparing::Side Comparing::side() const
+{
+  const PinnedRun* pin = pinned_.find(comparison_.shown);
+  return pin ? side_of(*pin) : run_side();
+}
+
+Comparing::Side Comparing::other_side() const
+{
+  if (comparison_.pin == Comparison::run_in_hand) return run_side();
+  if (const PinnedRun* pin = pinned_.find(comparison_.pin)) return side_of(*pin);
+  if (const auto& reference = run_.reference())
+    return {reference, reference->width, reference->height, &reference->rgb, &reference->layers, reference->origin, "the reference"};
+  if (run_.plan() || !run_.has_reference()) return {.why_not = "the preset has no reference and no picture is chosen to compare with"};
+  return {.why_not = "the reference is not there yet"};
+}
+
+/// All of a picture or its layer, which is there. Other pixels have another owner.
+HeldPicture Comparing::held(const Side& side, const std::string& layer)
+{
+  const job::Layer* found = layer.empty() ? nullptr : find_layer(*side.layers, layer);
+  const std::vector<float>& rgb = found ? found->rgb : *side.rgb;
+  return {std::shared_ptr<const void>(side.owner, &rgb), {side.width, side.height, rgb, side.name}};
+}
+
+/// Why it has no such layer; empty where it has it, or where none is asked for.
+std::string Comparing::why_no_layer(const Side& side, const std::string& layer)
+{
+  if (!side.why_not.empty() || layer.empty() || find_layer(*side.layers, layer)) return side.why_not;
+  if (side.layers->empty()) return fmt::format("{} has no layers, and \"{}\" is chosen", side.subject, layer);
+  std::vector<std::string> names;
+  for (const job::Layer& there : *side.layers) names.push_back(there.name);
+  return fmt::format("{} has no layer \"{}\", only {}", side.subject, layer, fmt::join(names, ", "));
+}
+
+std::shared_ptr<const job::Picture> Comparing::source() const
+{
+  if (const PinnedRun* pin = pinned_.find(comparison_.shown)) return pin->picture;
+  return run_.snapshot() ? run_.snapshot()->picture : nullptr;
+}
+
+std::string Comparing::name() const
+{
+  const PinnedRun* pin = pinned_.find(comparison_.shown);
+  return pin ? '"' + pin->name + '"' : "this run";
+}
+
+std::string Comparing::other_name() const
+{
+  if (comparison_.pin == Comparison::run_in_hand) return "this run";
+  const PinnedRun* pin = pinned_.find(comparison_.pin);
+  return pin ? '"' + pin->name + '"' : "Reference";
+}
+
+std::string Comparing::why_no_picture() const { return why_no_layer(side(), comparison_.layer); }
+std::string Comparing::why_none_beside() const { return why_no_layer(other_side(), comparison_.layer); }
+
+HeldPicture Comparing::picture() const { return why_no_picture().empty() ? held(side(), comparison_.layer) : HeldPicture{}; }
+HeldPicture Comparing::picture_beside() const { return why_none_beside().empty() ? held(other_side(), comparison_.layer) : HeldPicture{}; }
+HeldPicture Comparing::other_picture() const { return why_not().empty() ? picture_beside() : HeldPicture{}; }
 
 std::string Comparing::why_not() const
 {
   if (const std::string why = why_no_picture(); !why.empty()) return why;
-  const PinnedRun* pin = pinned_.find(comparison_.pin);
-  const measure::Reference* reference = run_.reference().get();
-  if (!pin && !reference) {
-    if (run_.plan() || !run_.has_reference()) return "the preset has no reference and no run is chosen to compare with";
-    return "the reference is not there yet";
-  }
-  if (pin && !pin->picture) return fmt::format("\"{}\" has no picture: only its history was read", pin->name);
-  const auto [width, height] =
-      pin ? std::array{pin->picture->width, pin->picture->height} : std::array{reference->width, reference->height};
-  const job::Picture& picture = *run_.snapshot()->picture;
-  if (width == picture.width && height == picture.height)
-    return why_no_layer(pin ? '"' + pin->name + '"' : "the reference", pin ? pin->picture->layers : reference->layers, comparison_.layer);
-  return fmt::format("{} is {} x {}, the picture {} x {}", pin ? '"' + pin->name + '"' : "the reference", width, height, picture.width,
-                     picture.height);
+  const Side one = side(), other = other_side();
+  if (other.why_not.empty() && (one.width != other.width || one.height != other.height))
+    return fmt::format("{} is {} x {}, {} {} x {}", other.subject, other.width, other.height,
+                       comparison_.shown == 0 ? "the picture" : one.subject, one.width, one.height);
+  return why_none_beside();
 }
 
-HeldPicture Comparing::other_picture() const
+bool Comparing::are_compared(const HeldPicture& picture, const HeldPicture& other) const
 {
-  if (!why_not().empty()) return {};
-  if (const PinnedRun* pin = pinned_.find(comparison_.pin)) return held(pin->picture, comparison_.layer, pin->name);
-  return held(run_.reference(), comparison_.layer, run_.reference()->origin);
+  const auto is = [](const HeldPicture& of, const HeldPicture& now, bool of_run) {
+    return of.owner == now.owner || (of_run && now.owner && of.pixels.width == now.pixels.width && of.pixels.height == now.pixels.height &&
+                                     of.pixels.name == now.pixels.name);
+  };
+  const HeldPicture now = other_picture();
+  return now.owner && is(picture, this->picture(), comparison_.shown == 0) && is(other, now, comparison_.pin == Comparison::run_in_hand);
+}
+
+std::shared_ptr<const ShownMetrics> Comparing::fitting(const NewestResult<ShownMetrics>& metrics) const
+{
+  const auto& newest = metrics.newest();
+  return newest && comparison_.measures() && are_compared(newest->picture, newest->other) ? newest : nullptr;
 }
 
 void Comparing::update(TaskQueue::Clock::time_point now)
 {
-  if (!comparison_.difference) return;
+  if (comparison_.difference) update_map(now);
+  if (comparison_.measures()) update_metrics(now);
+}
+
+void Comparing::update_metrics(TaskQueue::Clock::time_point now)
+{
+  constexpr std::chrono::seconds stays{1};
+  const HeldPicture picture = this->picture(), other = other_picture();
+  if (!other.owner) return;
+  const bool another = picture.owner != measured_, against_another = other.owner != measured_against_;
+  if (another || against_another) measured_since_ = now;
+  if ((another && comparison_.shown != 0) || (against_another && comparison_.pin != Comparison::run_in_hand)) {
+    metrics_.forget(tasks_); // chosen by hand: what is in the making keeps nobody waiting
+    all_metrics_.forget(tasks_);
+  }
+  measured_ = picture.owner, measured_against_ = other.owner;
+  const auto want = [&](NewestResult<ShownMetrics>& metrics, measure::Which which) {
+    const auto& newest = metrics.newest();
+    const bool same_other = newest && newest->other.owner == other.owner, same_picture = newest && newest->picture.owner == picture.owner;
+    metrics.want(
+        tasks_, "metrics of pictures",
+        same_other && same_picture ? Request::same
+        : same_other               ? Request::other_picture
+                                   : Request::other,
+        [picture, other, which] { return measured(picture, other, which); }, now);
+  };
+  want(metrics_, measure::Which::quick);
+  if (now - measured_since_ >= stays) want(all_metrics_, measure::Which::full);
+}
+
+void Comparing::update_map(TaskQueue::Clock::time_point now)
+{
   const DifferenceRequest request{picture(), other_picture(), comparison_.metric, comparison_.scale};
   if (!request.other.owner) return;
   const auto& newest = difference_.newest();

@@ -51,7 +51,7 @@ struct PictureToSave {
   std::string why_not; ///< there is none: a sentence without a full stop
 };
 
-/// By the extension of file: .png as shown, .exr the run's picture, linear with every layer. What there is to say of it, a sentence.
+/// By the extension of file: .png as shown, .exr the picture, linear with every layer. What there is to say of it, a sentence.
 std::string save_picture(const std::filesystem::path& file, const job::Picture& picture, const PictureToSave& shown);
 /// The files of a run into a new folder, the free_name() of this one, which is returned.
 std::filesystem::path save_files(const std::filesystem::path& folder, const job::Snapshot& of, TaskControl& control);

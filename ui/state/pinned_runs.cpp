@@ -4,11 +4,15 @@
 #include "base/files.h"
 #include "measure/read_picture.h"
 #include "measure/run_files.h"
+#include "ui/state/files.h"
 #include "ui/state/run_record.h"
 #include "ui/state/selection.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 namespace nephroid::ui {
@@ -22,7 +26,7 @@ constexpr const char* history_name = "history.csv";
 /// The file of the history that a path means.
 std::filesystem::path history_file(const std::filesystem::path& path)
 {
-  constexpr const char* expected = "expected the folder of a run, or its history.csv";
+  constexpr const char* expected = "expected the folder of a run, its history.csv, or a picture";
   constexpr const char* remedy = "give the folder of `nephroid run PRESET -o FOLDER`";
   if (!is_there(path)) throw bad_input(path.string(), "there is no such run", expected, remedy);
   if (std::error_code ignored; !std::filesystem::is_directory(path, ignored)) {
@@ -33,7 +37,34 @@ std::filesystem::path history_file(const std::filesystem::path& path)
   return path / history_name;
 }
 
+PinnedRun read_picture_pin(const std::filesystem::path& path)
+{
+  PinnedRun pin;
+  std::error_code ignored;
+  pin.file = std::filesystem::absolute(path, ignored).lexically_normal();
+  pin.name = path.filename().string();
+  pin.history = std::make_shared<job::History>();
+  measure::OpenedPicture opened = measure::open_picture(path);
+  pin.read_as = opened.picture.decoded ? "sRGB integers, decoded" : "floats, linear";
+  if (opened.picture.grey) pin.read_as += ", grey";
+  if (!opened.stands_in.empty()) pin.read_as += fmt::format(", layer {}", opened.stands_in);
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = opened.picture.width;
+  picture->height = opened.picture.height;
+  picture->rgb = std::move(opened.picture.rgb);
+  picture->layers = std::move(opened.layers);
+  pin.picture = std::move(picture);
+  return pin;
+}
+
 } // namespace
+
+std::vector<PinnedRun> PinnedRuns::runs() const
+{
+  std::vector<PinnedRun> runs;
+  std::ranges::copy_if(runs_, std::back_inserter(runs), &PinnedRun::is_run);
+  return runs;
+}
 
 const PinnedRun* PinnedRuns::find(std::uint64_t id) const
 {
@@ -85,8 +116,15 @@ bool is_history(const std::filesystem::path& path)
   return path.extension() == ".csv";
 }
 
+bool is_picture(const std::filesystem::path& path)
+{
+  const FileKind kind = kind_of(path);
+  return kind == FileKind::map || kind == FileKind::picture;
+}
+
 PinnedRun read_pin(const std::filesystem::path& path)
 {
+  if (is_picture(path)) return read_picture_pin(path);
   const std::filesystem::path file = history_file(path);
   const std::filesystem::path folder = std::filesystem::absolute(file).lexically_normal().parent_path();
   PinnedRun run;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs that were kept to hold others against: their history and, where there is one, their picture. They stay while the window is
-// open, whatever becomes of the run in hand.
+// Runs that were kept to hold others against: their history and, where there is one, their picture. And pictures that were opened, of
+// whatever program. They stay while the window is open, whatever becomes of the run in hand.
 #pragma once
 #include "job/job.h"
 
@@ -22,11 +22,17 @@ struct PinnedRun {
   std::shared_ptr<const job::History> history;  ///< never null
   std::shared_ptr<const job::Picture> picture;  ///< null where only a table was read
   std::shared_ptr<const RunRecord> record = {}; ///< what else is known of it (run_record.h); null where only a table was read
+  std::filesystem::path file = {};              ///< of a picture that was opened, absolute: it has no history; empty: a run
+  std::string read_as = {};                     ///< how its values were read: "floats, linear"
+
+  bool is_run() const { return file.empty(); }
 };
 
 class PinnedRuns {
 public:
   const std::vector<PinnedRun>& all() const { return runs_; }
+  /// Those that are no pictures that were opened.
+  std::vector<PinnedRun> runs() const;
   /// Null where there is none of this id.
   const PinnedRun* find(std::uint64_t id) const;
   /// Gives it an id, where it has no colour one that no other has while there are such, and a name of its own ("glass", "glass (2)").
@@ -46,9 +52,11 @@ private:
 
 /// Whether this names something that read_pin reads: a table (.csv), or a folder with a history.csv in it.
 bool is_history(const std::filesystem::path& path);
-/// An earlier run by its history.csv or its folder; named after the folder. Its image.exr and, for the noise floor, its run.json are read
-/// where they lie beside. Throws bad_input as measure::read_history, read_run_reference and read_linear_rgb do, and for what is_history
-/// says no to.
+/// Whether this names a picture, by its ending.
+bool is_picture(const std::filesystem::path& path);
+/// A picture, named after its file; or an earlier run by its history.csv or its folder; named after the folder. Its image.exr and, for the
+/// noise floor, its run.json are read where they lie beside. Throws bad_input as measure::read_history, read_run_reference and open_picture
+/// do, and for what is neither.
 PinnedRun read_pin(const std::filesystem::path& path);
 
 } // namespace nephroid::ui

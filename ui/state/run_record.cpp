@@ -117,7 +117,7 @@ PinnedRun run_now(const RunInHand& run)
 
 std::vector<PinnedRun> runs_of_table(const Comparing& comparing, const RunInHand& run)
 {
-  std::vector<PinnedRun> runs = comparing.pinned().all();
+  std::vector<PinnedRun> runs = comparing.pinned().runs();
   const auto& now = run.snapshot();
   if (now && std::ranges::find(runs, now->picture, &PinnedRun::picture) == runs.end()) runs.push_back(run_now(run));
   return runs;

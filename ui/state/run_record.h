@@ -38,7 +38,7 @@ struct RunRecord {
 PinnedRun run_now(const RunInHand& run);
 /// The same for a look: without what its folder would be written from.
 PinnedRun look_at_run(const RunInHand& run);
-/// What a report is over: the pinned runs, then the run in hand, where it has a picture that is none of theirs.
+/// What a report is over: the pinned runs (no opened pictures), then the run in hand, where it has a picture that is none of theirs.
 std::vector<PinnedRun> runs_of_table(const Comparing& comparing, const RunInHand& run);
 /// Of a run's folder: what can be read of its run.json and preset.json. Null where it has no run.json.
 std::shared_ptr<const RunRecord> read_record(const std::filesystem::path& folder);

@@ -9,9 +9,9 @@
 namespace nephroid::ui {
 
 struct Session {
-  /// A pinned run: its history and picture are files of their own.
+  /// A pinned run: its history and picture are files of their own. Or a picture that was opened, which stays where it is.
   struct Pin {
-    std::string folder; ///< in the session's folder: a name that measure reads as a run's
+    std::string folder; ///< in the session's folder: a name that measure reads as a run's; of a picture its file, absolute
     std::string name;
     std::uint32_t colour = 0; ///< IM_COL32
     bool shown = true;

@@ -179,7 +179,8 @@ SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const
   if (workbench.edits()) work.session.edits = workbench.edits()->state();
   work.session.chosen = workbench.chosen();
   work.pins = workbench.comparing().pinned().all();
-  for (const PinnedRun& run : work.pins) work.session.pins.push_back({fmt::format("pin-{}", run.id), run.name, run.colour, run.shown});
+  for (const PinnedRun& run : work.pins)
+    work.session.pins.push_back({run.is_run() ? fmt::format("pin-{}", run.id) : run.file.string(), run.name, run.colour, run.shown});
   work.settings = workbench.settings();
   if (workbench.works_on_files()) return work; // the pins of the session before may still be being read
   work.replaces = taken_over_;
@@ -196,7 +197,8 @@ std::string SessionKeeper::Writer::write(const Work& work)
 {
   try {
     for (std::size_t i = 0; i < work.pins.size(); ++i)
-      if (const fs::path pin = own / work.session.pins[i].folder; !is_there(pin / "history.csv")) write_pin(pin, work.pins[i]);
+      if (const fs::path pin = own / work.session.pins[i].folder; work.pins[i].is_run() && !is_there(pin / "history.csv"))
+        write_pin(pin, work.pins[i]);
     write_file_whole(own / session_name, text.of(work.session));
     if (const std::string settings = to_json(work.settings);
         !is_there(folder / settings_name) || read_file(folder / settings_name) != settings)

@@ -113,7 +113,10 @@ void Workbench::carry_out(const command::Open& c)
     carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.name)});
     return messages_.note(name + " is the environment");
   }
-  if (edits_ && kind == FileKind::picture && engine::engine_of(edits_->current()).take_picture) return take_picture(c.name);
+  if (edits_ && kind == FileKind::picture) {
+    if (engine::engine_of(edits_->current()).take_picture) return take_picture(c.name);
+    return carry_out(command::PinFile{c.name, true});
+  }
   if (kind == FileKind::scene) return import_scene(c.name);
   if (edits_ && kind == FileKind::mesh && has_scene(edits_->current())) return read_mesh(c.name);
   if (!c.sure && edits_ && edits_->modified()) { // what cannot be opened is said at once, and nothing is asked
@@ -245,10 +248,10 @@ void Workbench::carry_out(const command::SavePreset& c)
 
 void Workbench::carry_out(const command::SavePicture& c)
 {
-  if (!run_.snapshot()) return;
+  const auto picture = comparing_.source();
+  if (!picture) return;
   close_question();
-  save(c.file,
-       [file = c.file, picture = run_.snapshot()->picture, shown = shown_picture()] { return save_picture(file, *picture, shown); });
+  save(c.file, [file = c.file, picture, shown = shown_picture()] { return save_picture(file, *picture, shown); });
 }
 
 PictureToSave Workbench::shown_picture() const

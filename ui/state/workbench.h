@@ -94,7 +94,7 @@ private:
   void carry_out(const command::PinFile& c)
   {
     close_question();
-    pin(c.path);
+    pin(c.path, {}, c.show);
   }
   void carry_out(const command::ChooseMetric& c) { chosen_.error_metric = c.metric; }
   void carry_out(const command::ChooseMaterial& c) { chosen_.material = c.material; }
@@ -145,8 +145,9 @@ private:
   PictureToSave shown_picture() const;
   /// Writes a file in the background, after those before it; what write() answers becomes a note.
   void save(const std::filesystem::path& file, std::function<std::string()> write);
-  /// Reads an earlier run and pins it; as `like` in name, colour and whether it is shown, where that is given.
-  void pin(const std::filesystem::path& path, const std::optional<Session::Pin>& like = {});
+  /// Reads an earlier run or a picture and pins it; as `like` in name, colour and whether it is shown, where that is given. show: a
+  /// picture is shown in the View.
+  void pin(const std::filesystem::path& path, const std::optional<Session::Pin>& like = {}, bool show = false);
   void import_scene(const std::filesystem::path& file);
   void read_mesh(const std::filesystem::path& file);
   void add_recent(const std::filesystem::path& file);

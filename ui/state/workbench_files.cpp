@@ -8,6 +8,8 @@
 #include "preset/read.h"
 #include "run/import/import.h"
 
+#include <fmt/format.h>
+
 #include <ctime>
 #include <exception>
 #include <filesystem>
@@ -82,17 +84,21 @@ void Workbench::add_recent(const std::filesystem::path& file)
                [] {});
 }
 
-void Workbench::pin(const std::filesystem::path& path, const std::optional<Session::Pin>& like)
+void Workbench::pin(const std::filesystem::path& path, const std::optional<Session::Pin>& like, bool show)
 {
   tasks_.start(
       pins_, {"reading " + path.string(), TaskKind::request}, [path] { return read_pin(path); },
-      [this, like](PinnedRun run) {
+      [this, like, show](PinnedRun run) {
         if (like) {
           run.name = like->name;
           run.colour = like->colour;
           run.shown = like->shown;
         }
-        comparing_.pin(std::move(run));
+        const bool is_picture = !run.is_run();
+        if (is_picture && show)
+          messages_.note(fmt::format("opened {}, {} x {} ({})", run.name, run.picture->width, run.picture->height, run.read_as));
+        const std::uint64_t id = comparing_.pin(std::move(run));
+        if (is_picture && show) comparing_.carry_out(command::ShowPicture{id});
       });
 }
 

@@ -27,8 +27,8 @@ void draw_layer_choice(const Context& context, WidgetPlaces& places)
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
   Combo list("##layer", chosen.empty() ? "all" : chosen, &places, "layer");
   if (list.entry("all", chosen.empty())) context.push(command::ShowLayer{});
-  if (const auto& snapshot = context.run.snapshot())
-    for (const job::Layer& layer : snapshot->picture->layers)
+  if (const auto source = context.comparing.source())
+    for (const job::Layer& layer : source->layers)
       if (list.entry(layer.name, chosen == layer.name)) context.push(command::ShowLayer{layer.name});
 }
 
@@ -82,12 +82,23 @@ void draw_range_choice(const Context& context, const LuminanceRange& shown, Widg
 /// In the order of measure::DifferenceMetric.
 constexpr std::array metric_names{"CIELAB distance", "|a - b|", "relative |a - b|", "(a - b)^2", "luminance a - b", "FLIP"};
 
-void draw_other_choice(const Context& context)
+void draw_shown_choice(const Context& context, WidgetPlaces& places)
+{
+  const std::uint64_t now = context.comparing.comparison().shown;
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+  Combo list("##shown", context.comparing.name(), &places, "shown");
+  if (list.entry("this run", now == 0)) context.push(command::ShowPicture{});
+  for (const PinnedRun& run : context.comparing.pinned().all())
+    if (list.entry(run.name, now == run.id)) context.push(command::ShowPicture{run.id});
+}
+
+void draw_other_choice(const Context& context, WidgetPlaces& places)
 {
   const std::uint64_t now = context.comparing.comparison().pin;
-  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
-  Combo list("##other", other_name(context));
+  ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
+  Combo list("##other", context.comparing.other_name(), &places, "other");
   if (list.entry("Reference", now == 0)) context.push(command::CompareWith{0});
+  if (list.entry("this run", now == Comparison::run_in_hand)) context.push(command::CompareWith{Comparison::run_in_hand});
   for (const PinnedRun& run : context.comparing.pinned().all())
     if (list.entry(run.name, now == run.id)) context.push(command::CompareWith{run.id});
 }
@@ -242,27 +253,66 @@ void draw_look_bar(const Context& context, const Tone& tone, WidgetPlaces& place
   draw_range_choice(context, tone.range, places);
 }
 
-const char* metric_name(measure::DifferenceMetric metric) { return metric_names.at(static_cast<std::size_t>(metric)); }
-
-std::string other_name(const Context& context)
+std::string metrics_as_text(const Context& context)
 {
-  const PinnedRun* pin = context.comparing.pinned().find(context.comparing.comparison().pin);
-  return pin ? '"' + pin->name + '"' : "Reference";
+  const Comparing& comparing = context.comparing;
+  const auto quick = comparing.metrics(), full = comparing.all_metrics();
+  if (!quick || !quick->error.empty()) return quick ? quick->error : std::string();
+  const auto described = [&](const std::string& name, std::uint64_t pin) {
+    const PinnedRun* pinned = comparing.pinned().find(pin);
+    return pinned && !pinned->read_as.empty() ? fmt::format("{} ({})", name, pinned->read_as) : name;
+  };
+  std::string text = fmt::format("{} to {}; linear sRGB, 1 is white\n", described(comparing.name(), comparing.comparison().shown),
+                                 described(comparing.other_name(), comparing.comparison().pin));
+  for (const measure::Metric& metric : measure::all_metrics()) {
+    const bool is_quick = metric.kind != measure::Metric::Kind::perceptual;
+    const double value = is_quick ? metric.of(quick->metrics) : full && full->error.empty() ? metric.of(full->metrics) : NAN;
+    text += fmt::format("{}\t{}\t{}\n", metric.name, std::isfinite(value) ? fmt::format("{:.6g}", value) : "-", metric.meaning);
+  }
+  return text;
 }
 
-void draw_comparison_bar(const Context& context)
+const char* metric_name(measure::DifferenceMetric metric) { return metric_names.at(static_cast<std::size_t>(metric)); }
+
+void draw_comparison_bar(const Context& context, WidgetPlaces& places)
 {
   const Comparison& comparison = context.comparing.comparison();
   draw_label("Compare");
-  draw_other_choice(context);
+  if (!context.comparing.pinned().all().empty()) {
+    draw_shown_choice(context, places);
+    ImGui::SameLine();
+    draw_label("with");
+  }
+  draw_other_choice(context, places);
   ImGui::SameLine();
   action_button("Flip", context);
-  draw_toggle("Difference", comparison.difference, context);
+  for (const char* name : {"Difference", "Split", "Side by side"}) draw_toggle(name, action(name).checked(context), context);
   if (!comparison.difference) return;
   ImGui::SameLine();
   draw_metric_choice(context);
   ImGui::SameLine();
   draw_range_of_difference(context);
+}
+
+void draw_metrics(const Context& context, WidgetPlaces& places)
+{
+  const Comparing& comparing = context.comparing;
+  if (!comparing.comparison().measures()) return;
+  const auto quick = comparing.metrics(), full = comparing.all_metrics();
+  std::string line;
+  if (const std::string why = comparing.why_not(); !why.empty())
+    line = "Not measured: " + why;
+  else if (!quick)
+    line = "Being measured";
+  else if (!quick->error.empty())
+    line = "Not measured: " + quick->error;
+  else
+    line = fmt::format("rel_l2 {:.3g}   CIELAB {:.3g}   FLIP {}   of {} to {}", quick->metrics.rel_l2, quick->metrics.lab_mean,
+                       full && full->metrics.flip ? fmt::format("{:.3g}", *full->metrics.flip) : "...", comparing.name(),
+                       comparing.other_name());
+  draw_text(colour::quiet_text, line);
+  places.note("metrics");
+  if (quick && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", metrics_as_text(context).c_str());
 }
 
 void draw_selection_bar(const Context& context, WidgetPlaces& places)

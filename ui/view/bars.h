@@ -14,13 +14,17 @@ namespace nephroid::ui {
 
 /// "CIELAB distance"
 const char* metric_name(measure::DifferenceMetric metric);
-/// "Reference", or the pinned run's name in quotes.
-std::string other_name(const Context& context);
+
+/// Which pictures are compared, how they were read, and every metric with its meaning, a line each with tabs between; "-" where there is
+/// none (yet). Empty where nothing is measured.
+std::string metrics_as_text(const Context& context);
 
 /// What is shown and how: layer, tone curve, the range of false colour. tone: that of the picture that is shown.
 void draw_look_bar(const Context& context, const Tone& tone, WidgetPlaces& places);
-/// What is compared with, flip, difference and its metric.
-void draw_comparison_bar(const Context& context);
+/// What is shown, what it is compared with, and how: flip, split, side by side, difference and its metric. places: "shown" and "other".
+void draw_comparison_bar(const Context& context, WidgetPlaces& places);
+/// How far the two pictures are from each other, where that is wanted: a line; all metrics under the mouse. places: "metrics".
+void draw_metrics(const Context& context, WidgetPlaces& places);
 /// What is selected: its name and a list to choose from, the tools that move it, and the list of camera bookmarks. Nothing where the preset
 /// has no scene. places: "selected", "cameras" and, in the list of bookmarks, "go 0", "name 0", "delete 0" and so on.
 void draw_selection_bar(const Context& context, WidgetPlaces& places);

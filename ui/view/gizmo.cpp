@@ -312,7 +312,8 @@ void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std:
   sight_.reset();
   if (preset && has_scene(*preset)) sight_ = make_sight(preset->scene.camera, place(context.chosen.look, canvas, picture), picture);
   const Selection selection = context.selection();
-  const bool other_picture = context.comparing.comparison().flip; // nothing over that: one looks at it to compare
+  const Comparison& comparison = context.comparing.comparison();
+  const bool other_picture = comparison.flip || comparison.shown != 0; // nothing over that: one looks at it to compare
   if (sight_ && context.chosen.handles.shown && !other_picture) {
     if (selection.kind == Selection::Kind::object) draw_object_box(context, *sight_, selection.index);
     for (std::size_t i = 0; i < preset->scene.lights.size(); ++i)

@@ -49,35 +49,73 @@ void draw_marks(const Chosen& chosen, const Placement& placement, const std::arr
 void ViewPanel::draw(const Context& context)
 {
   shown_ = shown_picture(context);
+  beside_ = picture_beside(context);
   places_.clear();
   bars_.begin();
   bars_.bar([&] { draw_toolbar(context); });
-  bars_.bar([&] { draw_look_bar(context, tone_, places_); });
-  bars_.bar([&] { draw_comparison_bar(context); });
+  bars_.bar([&] { draw_look_bar(context, first_.tone, places_); });
+  bars_.bar([&] { draw_comparison_bar(context, places_); });
   bars_.bar([&] { draw_selection_bar(context, places_); });
+  draw_metrics(context, places_);
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
-  canvas_ = {{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
-  ImGui::InvisibleButton("picture", vec(canvas_.size),
+  const Canvas area{{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
+  lay_out(context, area);
+  ImGui::SetNextItemAllowOverlap();
+  ImGui::InvisibleButton("picture", vec(area.size),
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   hovered_ = ImGui::IsItemHovered();
   own_keys(context);
   pressed_ = ImGui::IsItemActivated();
   held_ = ImGui::IsItemActive();
-  refresh_texture(context);
-  const auto& map = context.comparing.difference();
+  if (!held_ || pressed_) on_second_ = seen_second_.size[0] > 0 && mouse()[0] >= seen_second_.corner[0];
+  take_line(context, area);
+  const double white = context.preset() ? context.preset()->white : 1;
+  refresh(first_, shown_, context.chosen.look, white);
+  refresh(second_, beside_, context.chosen.look, white, shown_.rgb.empty() ? nullptr : &first_.tone);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
-  draw_picture(context);
-  overlay_.draw(context, canvas_, shown_.size, hovered_);
-  use_mouse(context); // after the handles, which have it first
-  if (!shown_.hint.empty()) draw_hint(colour::quiet_on_dark, corner, vec(canvas_.size), shown_.hint);
-  draw_marks(context.chosen, place(context.chosen.look, canvas_, shown_.size), shown_.size);
-  if (!shown_.label.empty()) draw_overlay({corner.x + ImGui::GetFontSize() * 0.4f, corner.y + ImGui::GetFontSize() * 0.4f}, shown_.label);
-  if (map && map == shown_.owner) draw_difference_scale(*map, canvas_);
-  if (!shown_.rgb.empty() && tone_.curve == ToneCurve::false_colour) draw_luminance_scale(tone_.range, canvas_);
-  draw_pixel_value(context);
+  draw_pictures(context);
+  if (const auto& map = context.comparing.difference(); map && map == shown_.owner) draw_difference_scale(*map, area);
+  if (!shown_.rgb.empty() && first_.tone.curve == ToneCurve::false_colour) draw_luminance_scale(first_.tone.range, area);
+  draw_pixel_value(context, area);
   draw_list->PopClipRect();
+}
+
+/// Two pictures: in one place, of which each has the part on its side of the line, or each in a half of the area.
+void ViewPanel::lay_out(const Context& context, const Canvas& area)
+{
+  const Comparison& comparison = context.comparing.comparison();
+  canvas_ = seen_first_ = area;
+  seen_second_ = {};
+  shift_ = 0;
+  if (comparison.arrangement == Arrangement::single) return;
+  const bool split = comparison.arrangement == Arrangement::split;
+  const double line = std::round(area.size[0] * (split ? comparison.split : 0.5));
+  seen_first_.size[0] = line;
+  seen_second_ = {{area.corner[0] + line, area.corner[1]}, {area.size[0] - line, area.size[1]}};
+  if (split) return;
+  canvas_.size[0] = std::max(line, 1.0);
+  shift_ = line;
+}
+
+/// The line between two pictures, and the mouse on it.
+void ViewPanel::take_line(const Context& context, const Canvas& area)
+{
+  if (context.comparing.comparison().arrangement != Arrangement::split) return;
+  const float reach = 0.4f * ImGui::GetFontSize(), x = static_cast<float>(seen_second_.corner[0]);
+  const ImVec2 after = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos({x - reach, static_cast<float>(area.corner[1])});
+  ImGui::InvisibleButton("line", {2 * reach, static_cast<float>(area.size[1])});
+  places_.note("line");
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    hovered_ = false;
+  }
+  if (ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0)
+    context.push(command::MoveSplit{(mouse()[0] - area.corner[0]) / area.size[0]});
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) context.push(command::MoveSplit{});
+  ImGui::SetCursorScreenPos(after);
 }
 
 void ViewPanel::draw_toolbar(const Context& context)
@@ -99,54 +137,108 @@ void ViewPanel::draw_toolbar(const Context& context)
   ImGui::TextDisabled("%.0f %%   %d x %d", 100 * place(look, canvas_, size).scale, size[0], size[1]);
 }
 
-void ViewPanel::refresh_texture(const Context& context)
+/// like: the tone of the picture that it is held against; null: its own.
+void ViewPanel::refresh(Toned& toned, const ShownPicture& shown, const Look& look, double white, const Tone* like)
 {
-  if (!shown_.owner) return;
-  const Look& look = context.chosen.look;
-  const double white = context.preset() ? context.preset()->white : 1;
-  const bool toned = !shown_.rgb.empty(), same_tone = look.exposure_stops == look_in_texture_.exposure_stops &&
-                                                      look.tone == look_in_texture_.tone &&
-                                                      look.false_colour == look_in_texture_.false_colour && white == white_in_texture_;
-  if (shown_.owner == in_texture_ && (!toned || same_tone)) return;
-  const std::span<unsigned char> bytes = texture_.edit(shown_.size[0], shown_.size[1]);
-  if (toned) {
-    tone_ = tone_of(look, white, shown_.rgb);
-    toned_pixels(shown_.rgb, tone_, bytes);
+  if (!shown.owner) return;
+  const bool is_linear = !shown.rgb.empty();
+  const bool same_look = look.exposure_stops == toned.look.exposure_stops && look.tone == toned.look.tone &&
+                         look.false_colour == toned.look.false_colour && white == toned.white && (!like || *like == toned.tone);
+  if (shown.owner == toned.owner && (!is_linear || same_look)) return;
+  const std::span<unsigned char> bytes = toned.texture.edit(shown.size[0], shown.size[1]);
+  if (is_linear) {
+    toned.tone = like ? *like : tone_of(look, white, shown.rgb);
+    toned_pixels(shown.rgb, toned.tone, bytes);
   } else
-    std::copy(shown_.rgba.begin(), shown_.rgba.end(), bytes.begin());
-  in_texture_ = shown_.owner;
-  look_in_texture_ = look;
-  white_in_texture_ = white;
+    std::copy(shown.rgba.begin(), shown.rgba.end(), bytes.begin());
+  toned.owner = shown.owner;
+  toned.look = look;
+  toned.white = white;
 }
 
-void ViewPanel::draw_picture(const Context& context)
+void ViewPanel::draw_pictures(const Context& context)
 {
-  if (!shown_.owner) return;
-  const auto& size = shown_.size;
-  const Placement placement = place(context.chosen.look, canvas_, size);
+  const Placement first = placed(context);
+  Placement second = first;
+  second.origin[0] += shift_;
+  ImDrawList* draw_list = ImGui::GetWindowDrawList();
+  const auto within = [&](const Canvas& seen, auto draw) {
+    draw_list->PushClipRect(vec(seen.corner), vec({seen.corner[0] + seen.size[0], seen.corner[1] + seen.size[1]}), true);
+    draw();
+    draw_list->PopClipRect();
+  };
+  within(seen_first_, [&] {
+    draw_picture(shown_, first_, first);
+    overlay_.draw(context, canvas_, shown_.size, hovered_ && !on_second_);
+  });
+  use_mouse(context); // after the handles, which have it first
+  within(seen_first_, [&] { draw_marked(context, shown_, seen_first_, first); });
+  if (context.comparing.comparison().arrangement == Arrangement::single) return;
+  within(seen_second_, [&] {
+    draw_picture(beside_, second_, second);
+    draw_marked(context, beside_, seen_second_, second);
+  });
+  const float line = static_cast<float>(seen_second_.corner[0]), top = static_cast<float>(seen_second_.corner[1]);
+  const float foot = top + static_cast<float>(seen_second_.size[1]);
+  draw_list->AddLine({line, top}, {line, foot}, colour::outline, 3);
+  draw_list->AddLine({line, top}, {line, foot}, colour::on_dark, 1);
+  const auto pixel = hovered_ ? pointed_pixel(context) : std::nullopt; // where it is in the other picture
+  if (!pixel || shift_ == 0) return;
+  within(on_second_ ? seen_first_ : seen_second_, [&] {
+    draw_frame(on_second_ ? first : second, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::on_dark, 5);
+  });
+}
+
+void ViewPanel::draw_picture(const ShownPicture& shown, const Toned& toned, const Placement& placement) const
+{
+  if (!shown.owner) return;
   const ImVec2 from = vec(placement.to_screen({0, 0}));
-  const ImVec2 to = vec(placement.to_screen({static_cast<double>(size[0]), static_cast<double>(size[1])}));
-  texture_.draw(from, to, placement.scale >= pixel_squares_from);
+  const ImVec2 to = vec(placement.to_screen({static_cast<double>(shown.size[0]), static_cast<double>(shown.size[1])}));
+  toned.texture.draw(from, to, placement.scale >= pixel_squares_from);
   ImGui::GetWindowDrawList()->AddRect({from.x - 1, from.y - 1}, {to.x + 1, to.y + 1}, colour::frame);
 }
 
-/// What the pixel under the cursor is, in the picture's lower left corner.
-void ViewPanel::draw_pixel_value(const Context& context) const
+/// What is said of a picture, and the marks of the panel Inspector.
+void ViewPanel::draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen, const Placement& placement) const
 {
-  if (!hovered_ || !context.run.snapshot()) return;
-  const auto pixel = pixel_at(place(context.chosen.look, canvas_, shown_.size), shown_.size, mouse());
-  if (!pixel) return;
-  const std::string text = pixel_text(context, *pixel);
+  if (!shown.hint.empty()) draw_hint(colour::quiet_on_dark, vec(seen.corner), vec(seen.size), shown.hint);
+  draw_marks(context.chosen, placement, shown.size);
+  const double pad = 0.4 * static_cast<double>(ImGui::GetFontSize());
+  if (!shown.label.empty()) draw_overlay(vec({seen.corner[0] + pad, seen.corner[1] + pad}), shown.label);
+}
+
+/// The mouse, as if it were on the first picture.
+Point ViewPanel::pointer() const { return {mouse()[0] - (on_second_ ? shift_ : 0), mouse()[1]}; }
+
+/// Of the first picture or of the one beside it, which may be larger.
+std::optional<std::array<int, 2>> ViewPanel::pointed_pixel(const Context& context) const
+{
+  const std::array size{std::max(shown_.size[0], beside_.size[0]), std::max(shown_.size[1], beside_.size[1])};
+  return pixel_at(placed(context), size, pointer());
+}
+
+/// What the pixel under the cursor is, in the picture's lower left corner.
+void ViewPanel::draw_pixel_value(const Context& context, const Canvas& area)
+{
+  const auto pixel = hovered_ ? pointed_pixel(context) : std::nullopt;
+  pixel_value_ = pixel ? pixel_text(context, *pixel) : std::string();
+  if (pixel_value_.empty()) return;
   const float pad = ImGui::GetFontSize() * 0.4f;
-  draw_overlay(vec({canvas_.corner[0] + pad, canvas_.corner[1] + canvas_.size[1] - ImGui::CalcTextSize(text.c_str()).y - 3 * pad}), text);
+  draw_overlay(vec({area.corner[0] + pad, area.corner[1] + area.size[1] - ImGui::CalcTextSize(pixel_value_.c_str()).y - 3 * pad}),
+               pixel_value_);
 }
 
 /// Alt with the mouse on the picture opens no menu, and while a pixel is inspected or a thing is selected the arrow keys are theirs, not
-/// the keyboard's cursor's.
+/// the keyboard's cursor's. Else they go from picture to picture, unless somebody goes from widget to widget by the keyboard.
 void ViewPanel::own_keys(const Context& context)
 {
   ImGui::SetItemKeyOwner(ImGuiMod_Alt);
-  if ((!context.chosen.pixel && context.selection() == Selection{}) || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  if (!context.chosen.pixel && context.selection() == Selection{}) {
+    if (context.comparing.pinned().all().empty() || ImGui::GetIO().NavVisible) return;
+    for (const ImGuiKey key : {ImGuiKey_UpArrow, ImGuiKey_DownArrow}) ImGui::SetKeyOwner(key, ImGui::GetItemID());
+    return;
+  }
   for (const ImGuiKey key : {ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow})
     ImGui::SetKeyOwner(key, ImGui::GetItemID());
   if (context.selection() == Selection{}) return;
@@ -174,7 +266,10 @@ void ViewPanel::start_drag(const Context& context)
     drag_ = Drag::dolly;
   else
     drag_ = Drag::orbit;
-  drag_from_ = mouse();
+  // No camera of the preset's has taken a picture that was opened.
+  const bool is_of_camera = context.comparing.comparison().shown == 0;
+  if (!is_of_camera && drag_ != Drag::mark) drag_ = Drag::move_picture;
+  drag_from_ = pointer();
   moved_ = false;
   camera_at_start_ = context.preset()->scene.camera;
   look_at_start_ = context.chosen.look;
@@ -184,7 +279,7 @@ void ViewPanel::start_drag(const Context& context)
 void ViewPanel::continue_drag(const Context& context)
 {
   const ImVec2 step = ImGui::GetIO().MouseDelta;
-  const Point delta{mouse()[0] - drag_from_[0], mouse()[1] - drag_from_[1]};
+  const Point delta{pointer()[0] - drag_from_[0], pointer()[1] - drag_from_[1]};
   moved_ = moved_ || std::hypot(delta[0], delta[1]) > click_trembles * scale();
   if (moved_ && (step.x != 0 || step.y != 0)) {
     if (drag_ == Drag::move_picture) {
@@ -199,14 +294,14 @@ void ViewPanel::continue_drag(const Context& context)
   }
   if (drag_ == Drag::mark) mark(context);
   if (held_) return;
-  if (drag_ == Drag::orbit && !moved_) overlay_.click(context, drag_from_);
+  if (drag_ == Drag::orbit && !moved_ && !on_second_) overlay_.click(context, drag_from_);
   drag_ = Drag::none;
   context.push(command::EndGesture{});
 }
 
 void ViewPanel::move_camera(const Context& context, const Point& delta) const
 {
-  const double height = place(context.chosen.look, canvas_, shown_.size).scale * shown_.size[1];
+  const double height = placed(context).scale * shown_.size[1];
   const double across = delta[0] / height, down = delta[1] / height;
   const auto edit = [&](const char* label, const preset::Camera& camera) {
     context.edit(
@@ -223,20 +318,20 @@ void ViewPanel::move_camera(const Context& context, const Point& delta) const
 /// A click takes a pixel, a drag a rectangle, which follows the mouse.
 void ViewPanel::mark(const Context& context)
 {
-  const Placement placement = place(context.chosen.look, canvas_, shown_.size);
-  const double way = std::hypot(mouse()[0] - drag_from_[0], mouse()[1] - drag_from_[1]);
+  const Placement placement = placed(context);
+  const double way = std::hypot(pointer()[0] - drag_from_[0], pointer()[1] - drag_from_[1]);
   marks_region_ = marks_region_ || way >= ImGui::GetIO().MouseDragThreshold;
-  if (marks_region_) context.push(command::SelectRegion{region_between(placement, shown_.size, drag_from_, mouse())});
+  if (marks_region_) context.push(command::SelectRegion{region_between(placement, shown_.size, drag_from_, pointer())});
   if (held_) return;
-  if (!marks_region_) context.push(command::InspectPixel{pixel_at(placement, shown_.size, mouse())});
+  if (!marks_region_) context.push(command::InspectPixel{pixel_at(placement, shown_.size, pointer())});
   context.push(command::ShowPanel{"inspector"});
 }
 
 void ViewPanel::use_wheel(const Context& context)
 {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.KeyCtrl) {
-    context.push(command::SetLook{zoomed(context.look(), canvas_, shown_.size, mouse(), std::pow(notch, io.MouseWheel))});
+  if (io.KeyCtrl || context.comparing.comparison().shown != 0) {
+    context.push(command::SetLook{zoomed(context.look(), canvas_, shown_.size, pointer(), std::pow(notch, io.MouseWheel))});
     return;
   }
   const double now = ImGui::GetTime();

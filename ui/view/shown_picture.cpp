@@ -7,18 +7,21 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <optional>
+
 namespace nephroid::ui {
 namespace {
 
-/// What is said where the renderer has no texture of the size (0: it has every size); else empty.
-std::string too_large_hint(const std::array<int, 2>& size)
+/// What is said where the renderer has no texture of the size (0: it has every size); else empty. is_run: of the run's picture.
+std::string too_large_hint(const std::array<int, 2>& size, bool is_run)
 {
   const ImGuiPlatformIO& platform = ImGui::GetPlatformIO();
   const auto beyond = [](int length, int limit) { return limit > 0 && length > limit; };
   if (!beyond(size[0], platform.Renderer_TextureMaxWidth) && !beyond(size[1], platform.Renderer_TextureMaxHeight)) return {};
-  return fmt::format("The picture is {} x {}; this display's OpenGL shows at most {} x {}. It is computed all the same: "
-                     "save it with Ctrl+E, or lower scene.camera.resolution.",
-                     size[0], size[1], platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight);
+  return fmt::format("The picture is {} x {}; this display's OpenGL shows at most {} x {}. {}", size[0], size[1],
+                     platform.Renderer_TextureMaxWidth, platform.Renderer_TextureMaxHeight,
+                     is_run ? "It is computed all the same: save it with Ctrl+E, or lower scene.camera.resolution."
+                            : "It is measured all the same.");
 }
 
 /// What to do or to wait for before the first picture.
@@ -30,21 +33,22 @@ std::string waiting_hint(const Context& context)
   return "Preparing: reading the scene, building the kernels";
 }
 
-/// The newest map, where it is of the metric and the pictures that are compared now; of the run's own picture an earlier one will do.
-std::shared_ptr<const ShownDifference> fitting_map(const Context& context, const HeldPicture& other, const std::array<int, 2>& size)
+/// The newest map, where it is of the metric and the pictures that are compared now.
+std::shared_ptr<const ShownDifference> fitting_map(const Context& context)
 {
   const auto& map = context.comparing.difference();
-  if (!map || map->of.metric != context.comparing.comparison().metric || map->of.other.owner != other.owner) return nullptr;
-  const measure::Pixels& of = map->of.picture.pixels;
-  return of.width == size[0] && of.height == size[1] ? map : nullptr;
+  if (!map || map->of.metric != context.comparing.comparison().metric) return nullptr;
+  return context.comparing.are_compared(map->of.picture, map->of.other) ? map : nullptr;
 }
 
 /// The map, or why there is none yet.
-void show_difference(const Context& context, const HeldPicture& other, ShownPicture& shown)
+void show_difference(const Context& context, ShownPicture& shown)
 {
-  const auto map = fitting_map(context, other, shown.size);
+  const auto map = fitting_map(context);
   const Comparison& comparison = context.comparing.comparison();
-  shown.label = fmt::format("{} to {}", metric_name(comparison.metric), comparison.pin == 0 ? "the reference" : other_name(context));
+  shown.label =
+      fmt::format("{} to {}", metric_name(comparison.metric), comparison.pin == 0 ? "the reference" : context.comparing.other_name());
+  if (comparison.shown != 0) shown.label = context.comparing.name() + ": " + shown.label;
   if (!map)
     shown.hint = "The difference is being computed";
   else if (!map->error.empty())
@@ -57,15 +61,18 @@ void show_difference(const Context& context, const HeldPicture& other, ShownPict
 
 using Rgb = std::array<float, 3>;
 
-std::size_t index_of(const std::array<int, 2>& size, const std::array<int, 2>& pixel)
+/// Nothing where the pixel lies outside of it.
+std::optional<std::size_t> index_in(const std::array<int, 2>& size, const std::array<int, 2>& pixel)
 {
+  if (pixel[0] < 0 || pixel[1] < 0 || pixel[0] >= size[0] || pixel[1] >= size[1]) return std::nullopt;
   return static_cast<std::size_t>(pixel[1]) * static_cast<std::size_t>(size[0]) + static_cast<std::size_t>(pixel[0]);
 }
 
-Rgb value_at(std::span<const float> rgb, const std::array<int, 2>& size, const std::array<int, 2>& pixel)
+std::optional<Rgb> value_at(const measure::Pixels& picture, const std::array<int, 2>& pixel)
 {
-  const std::size_t index = 3 * index_of(size, pixel);
-  return {rgb[index], rgb[index + 1], rgb[index + 2]};
+  const auto index = index_in({picture.width, picture.height}, pixel);
+  if (!index) return std::nullopt;
+  return Rgb{picture.rgb[3 * *index], picture.rgb[3 * *index + 1], picture.rgb[3 * *index + 2]};
 }
 
 std::string text_of(const Rgb& value, double white, const char* format)
@@ -79,54 +86,82 @@ ShownPicture shown_picture(const Context& context)
 {
   ShownPicture shown;
   if (const preset::Preset* preset = context.preset()) shown.size = preset->scene.camera.resolution;
-  const auto& snapshot = context.run.snapshot();
-  if (!snapshot) {
-    shown.hint = waiting_hint(context);
+  const Comparing& comparing = context.comparing;
+  const Comparison& comparison = comparing.comparison();
+  const auto source = comparing.source();
+  const bool is_run = comparison.shown == 0;
+  if (!source) {
+    shown.hint = is_run ? waiting_hint(context) : "Nothing to show: " + comparing.why_no_picture();
     return shown;
   }
-  const job::Picture& picture = *snapshot->picture;
-  shown.size = {picture.width, picture.height};
-  const Comparison& comparison = context.comparing.comparison();
-  if (shown.hint = too_large_hint(shown.size); !shown.hint.empty()) return shown;
+  shown.size = {source->width, source->height};
+  if (shown.hint = too_large_hint(shown.size, is_run); !shown.hint.empty()) return shown;
   if (!comparison.flip && !comparison.difference) {
-    const HeldPicture held = context.comparing.picture();
+    const HeldPicture held = comparing.picture();
     shown.owner = held.owner;
     shown.rgb = held.pixels.rgb;
-    if (const std::string why = context.comparing.why_no_picture(); !why.empty())
+    if (const std::string why = comparing.why_no_picture(); !why.empty())
       shown.hint = fmt::format("Nothing to show: {}. Choose above, or go on with L.", why);
-    shown.label = snapshot->caption.empty() ? comparison.layer : snapshot->caption;
-    if (context.run.snapshot_is_previous()) shown.label = "Previous picture" + (shown.label.empty() ? "" : ": " + shown.label);
-  } else if (const HeldPicture other = context.comparing.other_picture(); !other.owner)
-    shown.hint = "Nothing to compare with: " + context.comparing.why_not();
+    shown.label = comparison.layer;
+    if (is_run && !context.run.snapshot()->caption.empty()) shown.label = context.run.snapshot()->caption;
+    if (!is_run || comparison.arrangement != Arrangement::single)
+      shown.label = comparing.name() + (shown.label.empty() ? "" : ": " + shown.label);
+    if (is_run && context.run.snapshot_is_previous()) shown.label = "Previous picture" + (shown.label.empty() ? "" : ": " + shown.label);
+  } else if (const HeldPicture other = comparing.other_picture(); !other.owner)
+    shown.hint = "Nothing to compare with: " + comparing.why_not();
   else if (comparison.flip) {
     shown.owner = other.owner;
     shown.rgb = other.pixels.rgb;
-    shown.label = other_name(context) + (comparison.layer.empty() ? "" : ": " + comparison.layer);
+    shown.label = comparing.other_name() + (comparison.layer.empty() ? "" : ": " + comparison.layer);
   } else
-    show_difference(context, other, shown);
+    show_difference(context, shown);
+  return shown;
+}
+
+ShownPicture picture_beside(const Context& context)
+{
+  ShownPicture shown;
+  shown.size = {0, 0};
+  const Comparing& comparing = context.comparing;
+  const Comparison& comparison = comparing.comparison();
+  if (comparison.arrangement == Arrangement::single) return shown;
+  const HeldPicture other = comparing.picture_beside();
+  if (!other.owner) {
+    shown.hint = "Nothing to compare with: " + comparing.why_none_beside();
+    return shown;
+  }
+  shown.size = {other.pixels.width, other.pixels.height};
+  shown.label = comparing.other_name() + (comparison.layer.empty() ? "" : ": " + comparison.layer);
+  if (shown.hint = too_large_hint(shown.size, comparison.pin == Comparison::run_in_hand); !shown.hint.empty()) return shown;
+  shown.owner = other.owner;
+  shown.rgb = other.pixels.rgb;
   return shown;
 }
 
 std::string pixel_text(const Context& context, const std::array<int, 2>& pixel)
 {
-  const auto& snapshot = context.run.snapshot();
-  if (!snapshot || !context.preset()) return {};
-  const job::Picture& picture = *snapshot->picture;
-  const std::array<int, 2> size{picture.width, picture.height};
+  const auto source = context.comparing.source();
+  if (!source || !context.preset()) return {};
   const double white = context.preset()->white;
   constexpr const char* format = "R {:.4g}   G {:.4g}   B {:.4g}   Y {:.4g} W/m2/sr";
+  const auto text_in = [&](const std::optional<Rgb>& value) { return value ? text_of(*value, white, format) : "outside of it"; };
   const HeldPicture held = context.comparing.picture();
-  const Rgb of_run = value_at(held.owner ? held.pixels.rgb : std::span<const float>(picture.rgb), size, pixel);
-  std::string text = fmt::format("({}, {})   ", pixel[0], pixel[1]) + text_of(of_run, white, format);
+  const auto value = value_at(held.owner ? held.pixels : measure::Pixels{source->width, source->height, source->rgb, {}}, pixel);
   const Comparison& comparison = context.comparing.comparison();
-  const HeldPicture other = context.comparing.other_picture();
-  if (!(comparison.flip || comparison.difference) || !other.owner) return text;
-  const Rgb of_other = value_at(other.pixels.rgb, size, pixel);
-  const Rgb difference{of_run[0] - of_other[0], of_run[1] - of_other[1], of_run[2] - of_other[2]};
-  text += fmt::format("\n{}   {}\ndifference   {}", other_name(context), text_of(of_other, white, format),
-                      text_of(difference, white, "R {:+.4g}   G {:+.4g}   B {:+.4g}   Y {:+.4g} W/m2/sr"));
-  if (const auto map = fitting_map(context, other, size); comparison.difference && map && map->values)
-    text += fmt::format("   {} {:.4g}", metric_name(map->of.metric), (*map->values)[index_of(size, pixel)]);
+  const bool is_single = comparison.arrangement == Arrangement::single;
+  const HeldPicture other = is_single ? context.comparing.other_picture() : context.comparing.picture_beside();
+  const bool compares = other.owner && (comparison.flip || comparison.difference || !is_single);
+  const auto other_value = compares ? value_at(other.pixels, pixel) : std::nullopt;
+  if (!value && !other_value) return {};
+  std::string text = fmt::format("({}, {})   ", pixel[0], pixel[1]) + text_in(value);
+  if (!compares) return text;
+  text += fmt::format("\n{}   {}", context.comparing.other_name(), text_in(other_value));
+  if (!value || !other_value) return text;
+  const Rgb difference{(*value)[0] - (*other_value)[0], (*value)[1] - (*other_value)[1], (*value)[2] - (*other_value)[2]};
+  text += "\ndifference   " + text_of(difference, white, "R {:+.4g}   G {:+.4g}   B {:+.4g}   Y {:+.4g} W/m2/sr");
+  if (const auto map = fitting_map(context); comparison.difference && map && map->values)
+    text += fmt::format("   {} {:.4g}", metric_name(map->of.metric),
+                        (*map->values)[*index_in({other.pixels.width, other.pixels.height}, pixel)]);
   return text;
 }
 
