@@ -5,11 +5,9 @@
 #include "optics/spectrum.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <system_error>
 
 namespace nephroid::scene {
@@ -38,29 +36,15 @@ std::optional<std::filesystem::path> shipped_material(const std::string& name)
   return std::nullopt;
 }
 
-/// "N-BK7", of every file in presets/materials.
-std::set<std::string> shipped_names()
-{
-  std::set<std::string> names;
-  std::error_code ignored;
-  for (std::filesystem::directory_iterator entry(presets_folder_if_any() / "materials", ignored), end; !ignored && entry != end;
-       entry.increment(ignored))
-    if (entry->path().extension() == ".yml") names.insert(entry->path().stem().string());
-  return names;
-}
-
 } // namespace
 
 std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where)
 {
   try {
     return finder.find(name, where);
-  } catch (const Error& error) {
+  } catch (const Error&) {
     if (const auto shipped = shipped_material(name)) return *shipped;
-    const auto* missing = dynamic_cast<const FileNotFound*>(&error);
-    const bool may_be_a_short_name = std::filesystem::path(name).extension().string().size() != 4 || name.ends_with(".yml");
-    if (!missing || !may_be_a_short_name) throw;
-    throw FileNotFound(where, name, fmt::format("{}; the program comes with {}", missing->looked_in(), fmt::join(shipped_names(), ", ")));
+    throw;
   }
 }
 
