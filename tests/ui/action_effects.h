@@ -48,6 +48,7 @@ inline void add_file_and_edit(Effects& all)
   all["Open..."] = {{}, asks(Question::open)};
   all["Open history..."] = {{}, asks(Question::open_history)};
   all["Open pictures..."] = {{}, asks(Question::open_pictures)};
+  all["Open map..."] = {{}, asks(Question::open_map)};
   all["Reopen the last session"] = {[](Desk& d) { d.workbench.offer_earlier(true); }, [](Desk& d) { return d.workbench.take_reopen(); }};
   all["Save preset"] = {
       [](Desk& d) { d.edit(2.5); },

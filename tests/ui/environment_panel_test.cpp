@@ -100,6 +100,8 @@ TEST_F(EnvironmentPanelTest, WithoutAnEnvironmentItSaysSo)
   EXPECT_FALSE(has("rotation"));
   EXPECT_TRUE(workbench.messages().empty());
   EXPECT_EQ(panel().model().maps_read(), 0);
+  click_in(panel(), "open map");
+  EXPECT_EQ(workbench.question(), Question::open_map);
 }
 
 TEST_F(EnvironmentPanelTest, OnlyPicturesOfABakeAreSaidToBeOfOne)

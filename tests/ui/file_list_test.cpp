@@ -183,4 +183,65 @@ TEST_F(FileListTest, EnterReplacesAFileTheSecondTimeOnly)
   EXPECT_EQ(preset::read_preset(kept.string()).name, "Test");
 }
 
+TEST_F(FileListTest, AMapIsChosenAmongMapsAndBecomesTheEnvironment)
+{
+  for (const char* file : {"hall.hdr", "sky.EXR", "face.png", "notes.txt"}) folder.write(file, "");
+  ask(Question::open_map);
+  EXPECT_THAT(names(), ElementsAre("hall.hdr", "sky.EXR"));
+  click_on("hall.hdr");
+  EXPECT_EQ(workbench.question(), Question::open_map) << "one click only names it";
+  click_on("hall.hdr");
+  EXPECT_EQ(workbench.question(), Question::none);
+  ASSERT_TRUE(workbench.preset()->scene.environment);
+  EXPECT_EQ(fs::path(workbench.preset()->scene.environment->file).filename(), "hall.hdr");
+}
+
+TEST_F(FileListTest, WhatIsTypedAndIsNoMapLeavesTheDialogOpen)
+{
+  ask(Question::open_map);
+  for (const std::string& name : {(folder.path() / "nowhere.hdr").string(), folder.write("face.png", "")}) {
+    retype(name);
+    press(ImGuiKey_Enter);
+    EXPECT_THAT(last_message(workbench), HasSubstr(name));
+    EXPECT_EQ(workbench.question(), Question::open_map);
+  }
+  EXPECT_FALSE(workbench.preset()->scene.environment);
+}
+
+class QuestionOfQuitting : public FileListTest {
+protected:
+  /// With an edit that is not saved.
+  void quit()
+  {
+    open();
+    edit([](preset::Preset& p) { p.scene.camera.position[2] = 2; });
+    workbench.apply({command::Quit{}});
+    frames(4);
+    ASSERT_EQ(workbench.question(), Question::unsaved);
+  }
+  /// The window is as it was.
+  void expect_nothing_happened()
+  {
+    EXPECT_EQ(workbench.question(), Question::none);
+    EXPECT_EQ(workbench.waiting(), nullptr);
+    EXPECT_FALSE(workbench.quitting());
+    EXPECT_TRUE(workbench.edits()->modified());
+    EXPECT_EQ(workbench.run().status().state, job::State::running) << "Escape is the dialog's, not the run's";
+  }
+};
+
+TEST_F(QuestionOfQuitting, IsCancelledByItsButton)
+{
+  quit();
+  click_in(workspace.dialogs(), "cancel");
+  expect_nothing_happened();
+}
+
+TEST_F(QuestionOfQuitting, IsCancelledByEscape)
+{
+  quit();
+  press(ImGuiKey_Escape);
+  expect_nothing_happened();
+}
+
 } // namespace nephroid::ui::file_list_test

@@ -206,4 +206,34 @@ TEST_F(InputEventsTest, AClickHasTheModifierThatWasHeld)
   EXPECT_EQ(frames_with([] { return ImGui::IsMouseClicked(0) && ImGui::GetIO().KeyCtrl; }), 1);
 }
 
+TEST_F(InputEventsTest, ATabHearsAClickThatCameWithTheMouseWithinOneFrame)
+{
+  std::array<bool, 2> shown{};
+  std::array<ImVec2, 2> tabs{};
+  const auto frame = [&] {
+    new_frame();
+    ImGui::Begin("tabs");
+    ImGui::BeginTabBar("bar");
+    for (const std::size_t i : {0, 1}) {
+      shown.at(i) = ImGui::BeginTabItem(i == 0 ? "first" : "second");
+      tabs.at(i) = (ImGui::GetItemRectMin() + ImGui::GetItemRectMax()) / 2;
+      if (shown.at(i)) ImGui::EndTabItem();
+    }
+    ImGui::EndTabBar();
+    ImGui::End();
+    ImGui::Render();
+  };
+  for (int i = 0; i < 4; ++i) frame();
+  for (const std::size_t tab : {1, 0, 1}) {
+    ASSERT_FALSE(shown.at(tab));
+    imgui_.move(500, 600);
+    for (int i = 0; i < 3; ++i) frame();
+    imgui_.move(tabs.at(tab).x, tabs.at(tab).y);
+    imgui_.button(0, true);
+    imgui_.button(0, false);
+    for (int i = 0; i < 6; ++i) frame();
+    EXPECT_TRUE(shown.at(tab)) << "tab " << tab;
+  }
+}
+
 } // namespace nephroid::ui::random_input_test

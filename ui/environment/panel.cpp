@@ -5,6 +5,7 @@
 #include "environment/describe_settings.h"
 #include "environment/settings.h"
 #include "measure/run_curves.h"
+#include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -109,8 +110,10 @@ void EnvironmentPanel::draw(const Context& context)
   places_.clear();
   const preset::Preset& preset = *context.preset();
   if (!preset.scene.environment) {
+    action_button("Open map...", context);
+    places_.note("open map");
     draw_hint(colour::quiet_text, ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail(),
-              "The preset has no environment: drop a latitude-longitude picture (.hdr, .exr) on the window, or add "
+              "The preset has no environment: open a latitude-longitude picture (.hdr, .exr), drop one on the window, or add "
               "scene.environment in Parameters");
     return;
   }
@@ -175,6 +178,8 @@ void EnvironmentPanel::draw_toolbar(const Context& context)
     places_.note(name, help);
     ImGui::SameLine();
   }
+  action_button("Open map...", context);
+  ImGui::SameLine();
   const bool turns = environment_.type == preset::Environment::Type::file;
   ImGui::BeginDisabled(!turns);
   ImGui::SetNextItemWidth(-1);

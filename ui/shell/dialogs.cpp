@@ -43,7 +43,8 @@ const DialogKind& kind_of_dialog(Question question)
                                      {"Save the picture as", ".png", {".png", ".exr"}},
                                      {"Unsaved changes", "", {}},
                                      {"", "", {}},
-                                     {"Write a report over the runs", "-report.html", {".html"}}};
+                                     {"Write a report over the runs", "-report.html", {".html"}},
+                                     {"Open a map of the environment", "", {".hdr", ".exr"}}};
   return kinds[static_cast<std::size_t>(question)];
 }
 
@@ -194,6 +195,8 @@ void Dialogs::draw(Workbench& workbench, Commands& commands)
     draw_open_history(commands);
   else if (shown_ == Question::open_pictures)
     draw_open_pictures(commands);
+  else if (shown_ == Question::open_map)
+    draw_open_map(commands);
   else if (shown_ == Question::unsaved)
     draw_unsaved(workbench, commands);
   else
@@ -250,6 +253,14 @@ void Dialogs::draw_open_pictures(Commands& commands)
   ImGui::TextDisabled("Several at once: drop them on the panel Runs, which lists them.");
 }
 
+void Dialogs::draw_open_map(Commands& commands)
+{
+  const bool typed = choose_name("a latitude-longitude picture", ImGui::GetFontSize() * 41, name_, "Open", !name_.empty());
+  const bool picked = pick_file();
+  if (typed || picked) commands.push_back(command::OpenMap{name_});
+  ImGui::TextDisabled("Pictures of all directions (.hdr, .exr). Dropping one on the window does the same.");
+}
+
 void Dialogs::draw_save(Commands& commands)
 {
   std::error_code ignored;
@@ -292,7 +303,7 @@ void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands)
   ImGui::SameLine();
   if (ImGui::Button(then == "quit" ? "Quit without saving" : "Open without saving")) commands.push_back(*workbench.waiting());
   ImGui::SameLine();
-  if (ImGui::Button("Go on")) commands.push_back(command::Ask{Question::none});
+  if (places_.button("Cancel", "cancel", "As Escape does: nothing is lost")) commands.push_back(command::Ask{Question::none});
 }
 
 } // namespace nephroid::ui

@@ -66,6 +66,7 @@ private:
   void draw_open(Commands& commands);
   void draw_open_history(Commands& commands);
   void draw_open_pictures(Commands& commands);
+  void draw_open_map(Commands& commands);
   void draw_save(Commands& commands);
   void draw_unsaved(const Workbench& workbench, Commands& commands);
 

@@ -54,6 +54,15 @@ bool is_press(const ImGuiInputEvent& event)
   return event.Type == ImGuiInputEventType_MouseWheel; // a click's modifier Dear ImGui itself keeps
 }
 
+/// The first press of a button after a move of the mouse; the end where there is none.
+ImGuiInputEvent* press_after_move(ImVector<ImGuiInputEvent>& events)
+{
+  ImGuiInputEvent* const move =
+      std::find_if(events.begin(), events.end(), [](const ImGuiInputEvent& e) { return e.Type == ImGuiInputEventType_MousePos; });
+  return std::find_if(move, events.end(),
+                      [](const ImGuiInputEvent& e) { return e.Type == ImGuiInputEventType_MouseButton && e.MouseButton.Down; });
+}
+
 bool lets_modifier_go(const ImGuiInputEvent& event)
 {
   return event.Type == ImGuiInputEventType_Key && !event.Key.Down && is_modifier(event.Key.Key);
@@ -64,7 +73,8 @@ bool lets_modifier_go(const ImGuiInputEvent& event)
 void new_frame()
 {
   ImVector<ImGuiInputEvent>& events = ImGui::GetCurrentContext()->InputEventsQueue;
-  ImGuiInputEvent* const later = std::find_if(std::find_if(events.begin(), events.end(), is_press), events.end(), lets_modifier_go);
+  ImGuiInputEvent* const later = std::min(
+      std::find_if(std::find_if(events.begin(), events.end(), is_press), events.end(), lets_modifier_go), press_after_move(events));
   const std::vector<ImGuiInputEvent> kept(later, events.end());
   events.resize(static_cast<int>(later - events.begin()));
   ImGui::NewFrame();

@@ -62,7 +62,8 @@ private:
 };
 
 /// ImGui::NewFrame(), but a modifier that is let go after something was pressed is let go in the next frame. Where Ctrl was held before,
-/// and Z is pressed and Ctrl let go within one frame, Dear ImGui sees Z alone.
+/// and Z is pressed and Ctrl let go within one frame, Dear ImGui sees Z alone. And a button that is pressed where the mouse has just come
+/// is pressed in the next frame: tabs, and whatever else others may lie over, hear only what was under the mouse a frame before.
 void new_frame();
 
 } // namespace nephroid::ui

@@ -89,7 +89,7 @@ struct Settings {
 };
 
 /// What a dialog is open for. unsaved: something waits for it (Workbench::waiting).
-enum class Question { none, open, open_history, open_pictures, save_preset, save_picture, unsaved, command, save_report };
+enum class Question { none, open, open_history, open_pictures, open_map, save_preset, save_picture, unsaved, command, save_report };
 
 namespace command {
 
@@ -99,6 +99,10 @@ namespace command {
 struct Open {
   std::string name;
   bool sure = false;
+};
+/// A latitude-longitude picture becomes the environment: one edit.
+struct OpenMap {
+  std::string file;
 };
 /// A scene to begin with, in no file; asks first as Open does.
 struct New {
@@ -270,7 +274,7 @@ struct Quit {
 } // namespace command
 
 using Command =
-    std::variant<command::Open, command::New, command::Edit, command::SetSweep, command::StartSweep, command::StopSweep,
+    std::variant<command::Open, command::OpenMap, command::New, command::Edit, command::SetSweep, command::StartSweep, command::StopSweep,
                  command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel, command::Pause, command::SetLook,
                  command::Flip, command::CompareWith, command::ShowPicture, command::Arrange, command::MoveSplit, command::ShowDifference,
                  command::ShowLayer, command::InspectPixel, command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin,

@@ -108,11 +108,7 @@ void Workbench::carry_out(const command::Open& c)
   if (is_history(c.name)) return carry_out(command::PinFile{c.name});
   const FileKind kind = kind_of(c.name);
   if (edits_ && kind == FileKind::dispersion) return carry_out(command::LoadDispersion{c.name});
-  if (edits_ && kind == FileKind::map) {
-    const std::string name = std::filesystem::path(c.name).filename().string();
-    carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.name)});
-    return messages_.note(name + " is the environment");
-  }
+  if (edits_ && kind == FileKind::map) return carry_out(command::OpenMap{c.name});
   if (edits_ && kind == FileKind::picture) {
     if (engine::engine_of(edits_->current()).take_picture) return take_picture(c.name);
     return carry_out(command::PinFile{c.name, true});
@@ -124,6 +120,18 @@ void Workbench::carry_out(const command::Open& c)
     preset::read_with_sweep(c.name);
   }
   if (!asks_first(c)) open(c.name);
+}
+
+/// Throws bad_input where there is no such file, or one that is no map: the dialog stays open then.
+void Workbench::carry_out(const command::OpenMap& c)
+{
+  if (!edits_) return;
+  if (kind_of(c.file) != FileKind::map) throw bad_input(c.file, "is no map of an environment", "expected a file .hdr or .exr");
+  if (!is_there(c.file)) throw bad_input(c.file, "there is no such file");
+  const std::string name = std::filesystem::path(c.file).filename().string();
+  carry_out(command::Edit{"surround with " + name, surrounded(edits_->current(), c.file)});
+  messages_.note(name + " is the environment");
+  close_question();
 }
 
 void Workbench::carry_out(const command::New& c)

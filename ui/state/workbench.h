@@ -74,6 +74,7 @@ public:
 
 private:
   void carry_out(const command::Open& c);
+  void carry_out(const command::OpenMap& c);
   void carry_out(const command::New& c);
   void carry_out(const command::Edit& c);
   void carry_out(const command::SetSweep& c);
