@@ -36,6 +36,27 @@ std::vector<std::string> keys_of(const std::vector<Member>& members)
 
 bool holds(const std::vector<std::string>& keys, const std::string& key) { return std::ranges::count(keys, key) > 0; }
 
+/// Where a field of this name is in the value, as --set names it: "spectral.threshold_deg"; empty where there is none.
+std::string path_to(const std::string& key, const Value& value)
+{
+  const auto below = [&](std::string_view name, const Value& inner) {
+    const std::string path = path_to(key, inner);
+    return path.empty() ? path : fmt::format("{}.{}", name, path);
+  };
+  std::string path;
+  if (value.kind() == Kind::object) {
+    for (const Member& member : value.members())
+      if (member.value.exists() && member.field.name == key) return key;
+    for (const Member& member : value.members())
+      if (path.empty() && member.value.exists()) path = below(member.field.name, member.value);
+  } else if (value.kind() == Kind::optional) {
+    if (value.count() > 0) path = path_to(key, value[0]);
+  } else if (value.kind() == Kind::list || value.kind() == Kind::map)
+    for (std::size_t i = 0; i < value.count() && path.empty(); ++i)
+      path = below(value.kind() == Kind::map ? value.key(i) : std::to_string(i), value[i]);
+  return path;
+}
+
 class Reader {
 public:
   explicit Reader(const Document& document) : document_(document) {}
@@ -99,9 +120,16 @@ private:
         if (item.value().is_null()) continue; // not given, which is as it should be
         refuse_of_other_engine(pointer, key);
       }
+      const std::string remedy = did_you_mean(key, keys);
       throw bad_input(document_.where(child(pointer, key)), "unknown key " + in_quotes(key),
-                      fmt::format("the keys here are {}", fmt::join(keys, ", ")), did_you_mean(key, keys));
+                      fmt::format("the keys here are {}", fmt::join(keys, ", ")), remedy.empty() ? further_in(key, object) : remedy);
     }
+  }
+
+  static std::string further_in(const std::string& key, const Value& object)
+  {
+    const std::string path = path_to(key, object);
+    return path.empty() ? path : fmt::format("did you mean '{}'?", path);
   }
 
   void refuse_of_other_type(const std::string& pointer, const std::string& key, const Value& object, const Member& own) const

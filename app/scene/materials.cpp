@@ -5,9 +5,11 @@
 #include "optics/spectrum.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <system_error>
 
 namespace nephroid::scene {
@@ -36,15 +38,29 @@ std::optional<std::filesystem::path> shipped_material(const std::string& name)
   return std::nullopt;
 }
 
+/// "N-BK7", of every file in presets/materials.
+std::set<std::string> shipped_names()
+{
+  std::set<std::string> names;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator entry(presets_folder_if_any() / "materials", ignored), end; !ignored && entry != end;
+       entry.increment(ignored))
+    if (entry->path().extension() == ".yml") names.insert(entry->path().stem().string());
+  return names;
+}
+
 } // namespace
 
 std::filesystem::path find_dispersion(const std::string& name, const FileFinder& finder, const Place& where)
 {
   try {
     return finder.find(name, where);
-  } catch (const Error&) {
+  } catch (const Error& error) {
     if (const auto shipped = shipped_material(name)) return *shipped;
-    throw;
+    const auto* missing = dynamic_cast<const FileNotFound*>(&error);
+    const bool may_be_a_short_name = std::filesystem::path(name).extension().string().size() != 4 || name.ends_with(".yml");
+    if (!missing || !may_be_a_short_name) throw;
+    throw FileNotFound(where, name, fmt::format("{}; the program comes with {}", missing->looked_in(), fmt::join(shipped_names(), ", ")));
   }
 }
 

@@ -241,6 +241,16 @@ TEST_F(PresetFiles, NamesOfSweptRunsAreUniqueAndGoodForFolders)
   EXPECT_TRUE(names.contains("s,dispersion=0,scene.lights.0.power_w=1,scene.lights.1.power_w=2,stop=1,unit=0"));
 }
 
+TEST(PresetReading, AKeyOfAnotherPlaceIsNamedWithItsPath)
+{
+  const auto refusal = [](const std::string& text) {
+    return test::refusal_of([&] { parse(R"("scene":{"lights":[{"type":"point"}]})", {text}); });
+  };
+  EXPECT_THAT(refusal("threshold_deg=1"), testing::HasSubstr("did you mean 'spectral.threshold_deg'?"));
+  EXPECT_THAT(refusal("power_w=1"), testing::HasSubstr("did you mean 'scene.lights.0.power_w'?"));
+  EXPECT_THAT(refusal("passes=1"), testing::HasSubstr("did you mean 'stop.passes'?"));
+}
+
 TEST(ShippedPresets, AreListedByNameWithALineEach)
 {
   std::vector<std::string> names;

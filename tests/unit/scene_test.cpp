@@ -258,7 +258,8 @@ TEST_F(SceneFiles, ShippedMaterialsHaveShortNamesWhichFilesBesideThePresetGoBefo
   write_file_whole(folder / "N-BK7", "DATA:\n  - type: tabulated n\n    data: |\n        0.40 1.25\n        0.70 1.25\n");
   EXPECT_EQ(n_at_d(), 1.25);
   dispersion.file = "N-BK77";
-  EXPECT_THAT(test::refusal_of([&] { n_at_d(); }), HasSubstr("p.json#/n: 'N-BK77' not found; looked in "));
+  EXPECT_THAT(test::refusal_of([&] { n_at_d(); }),
+              AllOf(HasSubstr("p.json#/n: 'N-BK77' not found; looked in "), HasSubstr("the program comes with"), HasSubstr(", N-BK7, ")));
 }
 
 TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption)
