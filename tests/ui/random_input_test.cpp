@@ -216,7 +216,8 @@ TEST_F(InputEventsTest, ATabHearsAClickThatCameWithTheMouseWithinOneFrame)
     ImGui::BeginTabBar("bar");
     for (const std::size_t i : {0, 1}) {
       shown.at(i) = ImGui::BeginTabItem(i == 0 ? "first" : "second");
-      tabs.at(i) = (ImGui::GetItemRectMin() + ImGui::GetItemRectMax()) / 2;
+      const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+      tabs.at(i) = {(low.x + high.x) / 2, (low.y + high.y) / 2};
       if (shown.at(i)) ImGui::EndTabItem();
     }
     ImGui::EndTabBar();
