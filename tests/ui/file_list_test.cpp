@@ -198,12 +198,13 @@ TEST_F(FileListTest, AMapIsChosenAmongMapsAndBecomesTheEnvironment)
 
 TEST_F(FileListTest, WhatIsTypedAndIsNoMapLeavesTheDialogOpen)
 {
-  ask(Question::open_map);
   for (const std::string& name : {(folder.path() / "nowhere.hdr").string(), folder.write("face.png", "")}) {
+    ask(Question::open_map);
     retype(name);
     press(ImGuiKey_Enter);
     EXPECT_THAT(last_message(workbench), HasSubstr(name));
     EXPECT_EQ(workbench.question(), Question::open_map);
+    press(ImGuiKey_Escape);
   }
   EXPECT_FALSE(workbench.preset()->scene.environment);
 }
@@ -226,7 +227,7 @@ protected:
     EXPECT_EQ(workbench.waiting(), nullptr);
     EXPECT_FALSE(workbench.quitting());
     EXPECT_TRUE(workbench.edits()->modified());
-    EXPECT_EQ(workbench.run().status().state, job::State::running) << "Escape is the dialog's, not the run's";
+    EXPECT_NE(workbench.run().status().state, job::State::cancelled) << "Escape is the dialog's, not the run's";
   }
 };
 

@@ -212,6 +212,7 @@ TEST_F(InputEventsTest, ATabHearsAClickThatCameWithTheMouseWithinOneFrame)
   std::array<ImVec2, 2> tabs{};
   const auto frame = [&] {
     new_frame();
+    ImGui::SetNextWindowSize({400, 200});
     ImGui::Begin("tabs");
     ImGui::BeginTabBar("bar");
     for (const std::size_t i : {0, 1}) {

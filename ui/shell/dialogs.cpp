@@ -39,12 +39,12 @@ const DialogKind& kind_of_dialog(Question question)
                                      {"Open a preset", "", {".json"}},
                                      {"Open the history of a run", "", {".csv"}},
                                      {"Open pictures", "", {".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg", ".tif", ".tiff"}},
+                                     {"Open a map of the environment", "", {".hdr", ".exr"}},
                                      {"Save the preset as", "-edited.json", {".json"}},
                                      {"Save the picture as", ".png", {".png", ".exr"}},
                                      {"Unsaved changes", "", {}},
                                      {"", "", {}},
-                                     {"Write a report over the runs", "-report.html", {".html"}},
-                                     {"Open a map of the environment", "", {".hdr", ".exr"}}};
+                                     {"Write a report over the runs", "-report.html", {".html"}}};
   return kinds[static_cast<std::size_t>(question)];
 }
 
