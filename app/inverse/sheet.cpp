@@ -56,7 +56,7 @@ void write(const std::string& words, job::Picture& into, const glm::ivec2& corne
     const int top = corner.y + std::max(0, box.y - text.height) / 2;
     for (int y = 0; y < std::min(text.height, box.y); ++y)
       for (int x = 0; x < std::min(text.width, box.x); ++x) {
-        const float value = text.data[static_cast<std::size_t>(y * text.width + x)];
+        const float value = text.data[static_cast<std::size_t>(y) * static_cast<std::size_t>(text.width) + static_cast<std::size_t>(x)];
         float* const pixel = into.rgb.data() + 3 * (static_cast<std::ptrdiff_t>(top + y) * into.width + corner.x + x);
         for (int c = 0; c < 3; ++c) pixel[c] = std::max(pixel[c], value);
       }

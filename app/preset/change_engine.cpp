@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace nephroid::preset {
 namespace {
@@ -60,10 +61,15 @@ std::vector<std::string> take_foreign(Json& preset, std::string_view engine)
   if (Json* animation = part_of(preset, "animation", Json::value_t::object))
     if (Json* tracks = part_of(*animation, "tracks", Json::value_t::array)) {
       const auto path_of = [](const Json& track) { return track.is_object() ? track.value("path", Json()) : Json(); };
-      const auto gone = std::ranges::stable_partition(*tracks, [&](const Json& track) { return !leads_into(path_of(track), foreign); });
-      for (const Json& track : gone) taken.push_back("animation: " + path_of(track).get<std::string>());
-      tracks->erase(gone.begin(), gone.end());
-      if (!gone.empty() && tracks->empty()) preset.erase("animation"); // else all of its frames would be alike
+      Json kept = Json::array();
+      for (const Json& track : *tracks)
+        if (leads_into(path_of(track), foreign))
+          taken.push_back("animation: " + path_of(track).get<std::string>());
+        else
+          kept.push_back(track);
+      const bool lost_all = kept.empty() && !tracks->empty();
+      *tracks = std::move(kept);
+      if (lost_all) preset.erase("animation"); // all of its frames would be alike
     }
   return taken;
 }

@@ -239,7 +239,7 @@ TEST_F(PanelPictures, TwoPicturesAreCompared)
   const Pixel line{static_cast<int>(canvas.corner[0] + half), static_cast<int>(canvas.corner[1] + canvas.size[1] / 3)};
   window.until("both in one place", [&] { return both(window.picture("split.png")); });
   window.drag(line, {line[0] + 100, line[1]});
-  taken(window, "window-split.png", "both pictures cut at a line", both);
+  window.until("both pictures cut at a line", [&] { return both(window.picture("split.png")); });
   EXPECT_EQ(window.quit().exit_code, 0);
 }
 

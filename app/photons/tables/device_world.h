@@ -61,7 +61,7 @@ struct DeviceWorld : tracing::World {
   {
     const auto blocks =
         first.blocks.edge > 0 ? static_cast<std::size_t>(first.blocks.across()) * static_cast<std::size_t>(first.blocks.down()) : 0;
-    return zeroed("first picture", 3 * halves * blocks);
+    return zeroed("first picture", std::size_t{3} * halves * blocks);
   }
   /// Runs a kernel that sends a slice of the photons of a pass.
   void send(compute::Kernel& kernel, const tracing::Slice& slice, std::int64_t pass, std::initializer_list<compute::Argument> own)
