@@ -148,6 +148,14 @@ preset::Preset black_glass()
   p.scene.materials["glass"].dispersion.file = write_constant_nk(cache().path() / "glass.yml", 1.5, 1e12);
   return p;
 }
+/// The mean over seeds, whose scatter is 0.0018 each.
+double mean_sent(preset::Preset p)
+{
+  constexpr unsigned seeds = 16;
+  double sum = 0;
+  for (p.seed = 1; p.seed <= seeds; ++p.seed) sum += sent(p);
+  return sum / seeds;
+}
 /// The mean of Fresnel's reflectance over the ball's disc.
 double reflected_by_ball()
 {
@@ -306,7 +314,7 @@ const Extreme cases[] = {
     {"TouchesTheFloor", "a ball that touches the floor", "one that is 1e-3 above it",
      [] { return near(caustic_above(0) / caustic_above(1e-3), 1, 0.02); }},
     {"BlackGlass", "glass with k = 1e12: what it sends on", "what its face reflects",
-     [] { return near(sent(black_glass()), reflected_by_ball(), 0.002); }},
+     [] { return near(mean_sent(black_glass()), reflected_by_ball(), 0.002); }},
     {"BlackMirror", "a mirror that reflects nothing: what it sends on", "nothing",
      [] {
        preset::Preset p = ball_and("", {"scene.materials.mirror.reflectance=0"});

@@ -267,7 +267,8 @@ TEST_F(ParametersSchemaTest, EveryFieldIsEditedAndUndoGivesTheSameBytes)
   std::vector<std::string> left;
   std::ranges::set_symmetric_difference(edited, leaves(), std::back_inserter(left));
   EXPECT_THAT(left, IsEmpty());
-  for (const Message& message : workbench.messages()) ADD_FAILURE() << message.line;
+  for (const Message& message : workbench.messages())
+    if (message.error) ADD_FAILURE() << message.line; // another engine leaves a note of what it takes away
   RecordProperty("fields", static_cast<int>(edited.size()));
 }
 
