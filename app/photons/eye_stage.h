@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stage with one sample a pixel and pass from the eye, into a film of its own: the layers "direct" and "background".
+// A stage with samples from the eye, as many as each pixel needs, into a film of its own: the layers "direct" and "background".
 #pragma once
 #include "photons/sampled_pixels.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
 
-#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <initializer_list>
 #include <string>
+#include <vector>
 
 namespace nephroid::photons {
 
@@ -20,7 +22,7 @@ inline const char* more_through_glass(const PlanInput& input)
 class EyeStage : public Stage {
 public:
   EyeStage(DeviceWorld& world, const char* layer, const Settings& settings)
-      : world_(world), layer_(layer), pixel_samples_(settings.pixel_samples),
+      : world_(world), layer_(layer), enough_(static_cast<std::uint32_t>(settings.pixel_samples)),
         film_(world.zeroed(std::string("film ") + layer, world.film_size())), first_film_(world.first_film()),
         pixels_(world, settings.pixel_samples)
   {
@@ -29,18 +31,12 @@ public:
   const char* name() const override { return layer_; }
   std::int64_t passes() const override { return pixels_.passes(); }
   double part() const override { return pixels_.part(); }
-  double glass_work() const override
-  {
-    return paths_through_glass * work_of_a_path * static_cast<double>(pixels_.glass()) / static_cast<double>(pixels_.every());
-  }
-  void share_work(double factor) override { pixels_.sample_one_pass_in(static_cast<double>(pixels_.every()) / factor); }
+  void share_work(const Noise& noise) override { pixels_.share_work(noise); }
 
-  /// Glass, which is sampled as long as the run goes on, may have no contribution with more quanta than any number of them can.
   bool step(std::int64_t pass) override
   {
-    const double most = pass < pixel_samples_ ? limit() : std::min(limit(), tracing::film_limit);
-    return pixels_.step(pass, [&](std::uint32_t first, std::uint32_t count) {
-      run(film_, world_.tables.camera, static_cast<std::uint32_t>(pass), first, count, most);
+    return pixels_.step(pass, [&](const compute::Buffer<shared::uint2>& samples, std::uint32_t count) {
+      run(film_, world_.tables.camera, samples, count);
     });
   }
 
@@ -54,8 +50,10 @@ public:
   {
     const shared::DeviceCamera camera = world_.first_camera();
     first_film_ = world_.first_film();
-    for (std::uint32_t half = 0; half < 2; ++half)
-      run(first_film_, camera, half, 0, static_cast<std::uint32_t>(camera.width * camera.height), limit());
+    std::vector<shared::uint2> samples;
+    for (std::uint32_t block = 0; block < static_cast<std::uint32_t>(camera.width * camera.height); ++block)
+      for (std::uint32_t half = 0; half < 2; ++half) samples.push_back({block, half});
+    run(first_film_, camera, compute::Buffer(world_.context, "samples", samples), static_cast<std::uint32_t>(samples.size()));
     return true;
   }
 
@@ -75,7 +73,8 @@ public:
 protected:
   /// Runs the kernel with its own arguments and `more`.
   virtual void run(std::uint32_t count, std::initializer_list<compute::Argument> more) = 0;
-  /// Quanta that one contribution may have while all pixels are sampled.
+  /// Quanta that each of the first pixel_samples contributions to a pixel may have; later ones may have no more than any number of them
+  /// can.
   virtual double limit() const = 0;
   /// Quanta of the film, of what becomes 1 in the picture.
   virtual double quanta_per_unit() const = 0;
@@ -83,22 +82,21 @@ protected:
   DeviceWorld& world_;
 
 private:
-  void run(const compute::Buffer<std::int64_t>& film, const shared::DeviceCamera& camera, std::uint32_t frame, std::uint32_t first,
-           std::uint32_t count, double limit)
+  void run(const compute::Buffer<std::int64_t>& film, const shared::DeviceCamera& camera, const compute::Buffer<shared::uint2>& samples,
+           std::uint32_t count)
   {
     run(count, {{"film", film},
                 {"energy", world_.energy},
                 {"camera", camera},
                 {"seed", world_.seed},
-                {"frame", frame},
-                {"pixels", world_.pixels.on_device},
-                {"first", first},
+                {"samples", samples},
                 {"count", count},
-                {"film_limit", static_cast<float>(limit)}});
+                {"enough", enough_},
+                {"film_limit", static_cast<float>(limit())}});
   }
 
   const char* layer_;
-  std::int64_t pixel_samples_;
+  std::uint32_t enough_; ///< Settings::pixel_samples
   compute::Buffer<std::int64_t> film_;
   compute::Buffer<std::int64_t> first_film_; ///< with a pixel for each block of the first picture
   SampledPixels pixels_;

@@ -4,7 +4,6 @@
 #include "engine/engine.h"
 #include "photons/block_smoothing.h"
 #include "photons/relight/layer_film.h"
-#include "photons/sampled_pixels.h"
 #include "photons/sight.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
@@ -96,7 +95,7 @@ public:
     if (at_.pass == 1 && at_.stage == 0 && !at_.part_of_pass && smooths_seen_ && smoothing_)
       timed([&] { smoothing_->pixels().look(); }); // before a picture waits for it
     const auto begin = Clock::now();
-    if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 4 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
+    if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 2 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
     TimedStage& now = stages_[at_.stage];
     const bool complete = at_.pass >= now.stage->passes() || now.stage->step(at_.pass);
@@ -219,36 +218,38 @@ private:
     double energy_from = 0; ///< rounds of photons when the energy counters began
   };
 
-  /// Deals the work of the next passes out between photons and paths through glass, by how much each has left of the picture's noise: the
-  /// sum of the variances V_s of films that take the work w_s a pass, V_s w_s being as it is, is smallest where all V_s / w_s are alike.
-  /// Work is counted, not timed, so that a seed has its bits. The square of a pixel's noise is over that of its light, as in the metric
-  /// rel_mse.
+  /// Deals the work of the next passes out between photons and paths from the eye, by how much each lowers the picture's noise: the sum of
+  /// the variances V_s of what takes the work w_s a pass, V_s w_s being as it is, is smallest where all V_s / w_s are alike. Work is
+  /// counted, not timed, so that a seed has its bits. The square of a pixel's noise is over that of its light, as in the metric rel_mse.
   void share_work()
   {
-    job::Picture picture = black();
-    std::vector<std::vector<float>> draws{picture.error_draw}; // of the stages up to each
+    job::Picture picture = black(), caustics = picture;
+    std::vector<std::vector<float>> draws; // of each stage
+    std::uint64_t photons = 0;
     for (const TimedStage& s : stages_) {
-      s.stage->develop(at_.pass, false, picture);
-      draws.push_back(picture.error_draw);
+      job::Picture& into = s.caustics() ? caustics : picture;
+      std::vector<float> before = into.error_draw;
+      s.stage->develop(at_.pass, false, into);
+      if (into.error_draw.empty()) return;
+      std::transform(into.error_draw.begin(), into.error_draw.end(), before.begin(), before.begin(), std::minus());
+      draws.push_back(std::move(before));
+      if (s.caustics()) photons += s.stage->photons_per_pass();
     }
-    if (picture.error_draw.empty()) return;
-    std::vector<float>& rgb = picture.rgb;
+    if (photons == 0) return;
+    std::vector<float>& splatted = tracing::layer_of(caustics, "caustic").rgb;
+    if (smoothing_) smoothing_->pixels().spread(splatted, caustics.error_draw);
+    picture.layers.push_back(std::move(caustics.layers.front()));
     for (const job::Layer& layer : picture.layers)
-      std::transform(layer.rgb.begin(), layer.rgb.end(), rgb.begin(), rgb.begin(), std::plus());
-    const auto noise_over_work = [&](std::size_t stage, double work, bool of_glass) {
-      double sum = 0;
-      for (std::size_t i = 0; i < rgb.size(); ++i)
-        if (!of_glass || world_.pixels.may_show_glass[i / 3])
-          sum += std::pow(static_cast<double>(draws[stage + 1][i]) - draws[stage][i], 2) / (0.01 + static_cast<double>(rgb[i]) * rgb[i]);
-      return sum / work;
-    };
-    double of_photons = 0;
+      std::transform(layer.rgb.begin(), layer.rgb.end(), picture.rgb.begin(), picture.rgb.begin(), std::plus());
+
+    Noise of_caustics{caustics.error_draw, picture.rgb, at_.pass};
+    double noise = 0; // of photons: what glass shows are also paths
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+      if (!world_.pixels.may_show_glass[i / 3]) noise += of_caustics.of(i);
+    if (noise == 0) return;
+    of_caustics.photon_gain = noise / (static_cast<double>(at_.pass) * static_cast<double>(photons));
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (const auto work = static_cast<double>(stages_[s].stage->photons_per_pass()); stages_[s].caustics() && work > 0)
-        of_photons = noise_over_work(s, work, false);
-    for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (const double work = stages_[s].stage->glass_work(); work > 0 && of_photons > 0)
-        stages_[s].stage->share_work(std::sqrt(noise_over_work(s, work, true) / of_photons));
+      stages_[s].stage->share_work(stages_[s].caustics() ? of_caustics : Noise{draws[s], picture.rgb, at_.pass, of_caustics.photon_gain});
   }
 
   /// A black picture without layers, with room for a draw of its error where films have halves.

@@ -1,81 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels a stage samples from the eye: all of them until they have enough, then those that may show glass or a mirror, as long as the
-// run goes on: what those show takes as many samples as a run can give, for each path from the eye there has one wavelength and one branch
-// of each reflection.
+// How many samples from the eye a pixel gets in each pass: one, until the noise says where more are worth their work and where fewer will
+// do.
+//
+// The mean of a pixel's samples is unbiased, whatever their number is, as long as that hangs on other samples only. So it is decided by
+// what the pixels around it show, whose random numbers are their own, and not by the pixel itself.
 #pragma once
+#include "kernels/tracing/shared_types.h"
+#include "photons/stage.h"
 #include "photons/tables/device_world.h"
-#include "preset/preset.h"
-#include "scene/scene.h"
+#include "tracing/state.h"
 #include "tracing/step_size.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace nephroid::photons {
 
 class SampledPixels {
 public:
-  /// enough: samples of a pixel without glass, one a pass; preset::max_passes: all pixels in every pass; 0: those of glass alone.
-  SampledPixels(const DeviceWorld& world, std::int64_t enough) : lists_(world.pixels), enough_(enough), steps_(size(0), 1024) {}
+  /// enough: the most samples of a pixel that shows no glass and no mirror.
+  SampledPixels(const DeviceWorld& world, std::int64_t enough);
 
-  std::int64_t passes() const { return lists_.glass.empty() ? enough_ : preset::max_passes; }
-  double part() const { return steps_.part(); }
-  /// Of the pass in hand, of all its pixels.
-  std::int64_t done() const { return steps_.done(); }
-  /// How many a pass has of glass.
-  std::int64_t glass() const { return static_cast<std::int64_t>(lists_.glass.size()); }
+  /// How many passes may have samples.
+  std::int64_t passes() const { return passes_; }
+  /// Of the pass in hand.
+  double part() const { return static_cast<double>(done_) / static_cast<double>(counts_.size()); }
 
-  /// Those of glass alone are sampled in one of every() passes, an odd number, so that both halves of a film get as many.
-  std::int64_t every() const { return every_; }
-  void sample_one_pass_in(double passes) { every_ = 2 * std::llround((std::clamp(passes, 1.0, 31.0) - 1) / 2) + 1; }
-
-  /// Calls work(first, count) for the next places in PixelLists::on_device, at most `most`. True when the pass is complete.
+  /// Calls work(samples, count) for the next samples of the pass, on the device: x is the pixel, y which of its samples this is. Those with
+  /// an even number are of the film's first half, those with an odd one of the second. True when the pass is complete.
   template <class Work>
-  bool step(std::int64_t pass, const Work& work, std::int64_t most = std::numeric_limits<std::int64_t>::max())
+  bool step(std::int64_t pass, const Work& work)
   {
-    in_hand_ = pass;
-    if (size(pass) == 0 || (!has_all(pass) && pass % every_ != 0)) return true;
-    const std::uint32_t begin = has_all(pass) ? 0 : lists_.count;
-    const bool complete = steps_.step(size(pass), most, [&](std::uint32_t first, std::uint32_t count) { work(begin + first, count); });
-    if (complete) ++(has_all(pass) ? passes_of_all_ : passes_of_glass_)[half()];
-    return complete;
+    take_next(pass, amount_.amount());
+    amount_.timed(static_cast<double>(next_.size()), [&] {
+      if (!next_.empty()) work(on_device_, static_cast<std::uint32_t>(next_.size()));
+    });
+    return done_ == 0;
   }
 
   /// Film::samples of a pixel.
-  std::array<double, 2> samples(std::size_t pixel) const
-  {
-    // Without a pass of all pixels the film is black but for glass, in any number of passes.
-    const bool glass = enough_ == 0 || lists_.may_show_glass[pixel];
-    std::array<double, 2> counts{};
-    for (std::size_t half = 0; half < 2; ++half)
-      counts[half] = static_cast<double>(passes_of_all_[half] + (glass ? passes_of_glass_[half] : 0));
-    const auto at = static_cast<std::size_t>(steps_.done());
-    if (at > 0 && pixel < (has_all(in_hand_) ? at : glass ? lists_.glass[at] : 0)) ++counts[half()];
-    return counts;
-  }
+  std::array<double, 2> samples(std::size_t pixel) const { return {double(counts_[pixel][0]), double(counts_[pixel][1])}; }
 
-  void state(tracing::State& state)
-  {
-    steps_.state(state);
-    state.value(every_);
-    state.value(in_hand_);
-    state.value(passes_of_all_);
-    state.value(passes_of_glass_);
-  }
+  /// Stage::share_work.
+  void share_work(const Noise& noise);
+
+  void state(tracing::State& state);
 
 private:
-  bool has_all(std::int64_t pass) const { return pass < enough_; }
-  std::int64_t size(std::int64_t pass) const { return has_all(pass) ? static_cast<std::int64_t>(lists_.count) : glass(); }
-  std::size_t half() const { return static_cast<std::size_t>(in_hand_ % 2); }
+  std::int64_t samples_in(std::size_t pixel, std::int64_t pass) const;
+  void take_next(std::int64_t pass, double amount);
 
-  const PixelLists& lists_;
-  std::int64_t enough_, every_ = 1, in_hand_ = 0;
-  std::array<std::int64_t, 2> passes_of_all_{}, passes_of_glass_{}; ///< complete ones, even and odd
-  tracing::PixelSteps steps_;
+  const DeviceWorld& world_;
+  std::int64_t enough_, passes_;
+  std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: in even and in odd passes
+  std::vector<std::int16_t> rates_;                  ///< [pixel]: n > 0: n samples a pass; n < 0: one in one of -n passes
+  std::int64_t done_ = 0;                            ///< pixels of the pass in hand
+  std::vector<shared::uint2> next_;
+  compute::Buffer<shared::uint2> on_device_;
+  tracing::StepSize amount_{1024};
 };
 
 } // namespace nephroid::photons

@@ -39,7 +39,7 @@ struct Settings {
   bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
   int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
   int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
-  int pixel_samples = 64;                  ///< samples a pixel of the direct layer, one a pass until there are so many
+  int pixel_samples = 64;                  ///< of a pixel without glass and mirrors, of the layers direct and background: the most
   int max_surfaces = 32;                   ///< interfaces a path may meet before it is counted as lost
   Sppm sppm;
   bool direct = true;     ///< layer: light that reaches a diffuse surface unbent

@@ -11,14 +11,28 @@
 #include "scene/scene.h"
 #include "tracing/state.h"
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace nephroid::photons {
 
 /// A path from the eye takes about twice as long as a photon; of the layers "direct" and "background" glass has so many a sample
 /// (PATHS_THROUGH_GLASS in kernels/tracing/eye_path.h).
 inline constexpr double work_of_a_path = 2, paths_through_glass = 4;
+
+/// The noise of a stage's layer, and what it is to the picture.
+struct Noise {
+  const std::vector<float>& draw;  ///< of the layer's error, [pixel][3]
+  const std::vector<float>& light; ///< of the whole picture, [pixel][3]
+  std::int64_t passes = 0;         ///< that the layer had until now
+  double photon_gain = 0;          ///< by how much a photon that is splatted lowers the sum of noise_beside() of all pixels
+
+  /// As in the metric rel_mse.
+  static double noise_beside(double light_squared, double noise_squared) { return noise_squared / (0.01 + light_squared); }
+  double of(std::size_t channel) const { return noise_beside(std::pow(double{light[channel]}, 2), std::pow(double{draw[channel]}, 2)); }
+};
 
 class Stage {
 public:
@@ -56,10 +70,9 @@ public:
   virtual bool add_spectrum(std::int64_t /*passes*/, bool /*done*/, job::PixelSpectrum& /*to*/) { return false; }
   /// Adds where the power of its photons went in the same passes, if it keeps counters of its own.
   virtual void report(std::int64_t /*passes*/, bool /*done*/, Energy& /*energy*/) {}
-  /// Work of a pass on pixels of glass, in photons, as the mean of passes; 0: it is not to be shared out.
-  virtual double glass_work() const { return 0; }
-  /// How much of it the next passes are to have, as a multiple of what glass_work() says.
-  virtual void share_work(double /*factor*/) {}
+  /// Sees to it that in the next passes, as many as there were, its paths from the eye lower the noise by as much as photons that take as
+  /// much work.
+  virtual void share_work(const Noise& /*noise*/) {}
   /// Photons sent in one pass; 0 where it sends none.
   virtual std::uint64_t photons_per_pass() const { return 0; }
   /// Whether theirs is the power in DeviceWorld::energy.

@@ -28,25 +28,25 @@ static inline float3 seen_through(const World* world, const Background* backgrou
                                   uint pixel)
 {
   Surface surface;
-  const float radiance_scale = reach_end(world, &path, &hit, band, seed, sample, pixel, STREAM_BACKGROUND, false, &surface);
+  const float radiance_scale = reach_end(world, &path, &hit, band, seed, sample, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND, false, &surface);
   if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
   return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses, band);
 }
 
-// One sample of each of pixels[first .. first + count - 1].
+// samples: [count]: of which pixel, and its number there. enough: of limit_of_sample.
 __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_xyz, DeviceBackground size,
                          __global const int* wavelengths,    // 0, 1, ..., 400
                          __global const float* spectrum_cdf, // [401]: which wavelength a path through glass has
                          volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                         DeviceCamera camera, uint2 seed, uint frame, __global const uint* pixels, uint first, uint count, float film_scale, float film_limit)
+                         DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough, float film_scale, float film_limit)
 {
   const World world = WORLD;
   const Background background = {texels, primary_xyz, size};
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
-  const uint pixel = pixels[first + index];
+  const uint pixel = samples[index].x, frame = samples[index].y;
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
-  const float4 jitter = random4(seed, frame, pixel, 0u, STREAM_BACKGROUND);
+  const float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
   const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);
 
@@ -61,6 +61,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
       const Band band = wavelength_of_cluster(0, wavelengths, spectrum_cdf, WAVELENGTH_COUNT, place);
       xyz += seen_through(&world, &background, path, hit, &band, seed, frame * PATHS_THROUGH_GLASS + i, pixel) / (float)PATHS_THROUGH_GLASS;
     }
-  if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, film_limit, jitter.z))
+  const float limit = limit_of_sample(frame, enough, film_limit);
+  if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit, jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }

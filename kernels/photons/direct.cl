@@ -34,25 +34,25 @@ static inline float3 follow(const World* world, Path path, Hit first, const Band
                             uint sample, uint pixel)
 {
   Surface surface;
-  const float radiance_scale = reach_diffuse(world, &path, &first, band, seed, sample, pixel, STREAM_CAMERA, &surface);
+  const float radiance_scale = reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel, STREAM_CAMERA, &surface);
   if (radiance_scale == 0.0f) return (float3)(0.0f);
   const int reflector = material_of(world, surface.object).reflector;
   return radiance_scale * shade(world, &path, &surface, first.primitive, reflector, band, reflected_xyz_all, seed, sample, pixel);
 }
 
-// One sample of each of pixels[first .. first + count - 1].
+// samples: [count]: of which pixel, and its number there. enough: of limit_of_sample.
 __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, // [light][reflector]: reflected_xyz over all clusters
                      __global const float* cluster_cdf,                         // [cluster + 1]: which cluster a path through glass takes
                      volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                     DeviceCamera camera, uint2 seed, uint frame, __global const uint* pixels, uint first, uint count, float film_scale,
+                     DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough, float film_scale,
                      float film_limit)
 {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
-  const uint pixel = pixels[first + index];
+  const uint pixel = samples[index].x, frame = samples[index].y;
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
-  const float4 jitter = random4(seed, frame, pixel, 0u, STREAM_CAMERA);
+  const float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_CAMERA);
   const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
@@ -72,6 +72,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
     }
     xyz += follow(&world, path, hit, &band, reflected_xyz_all, seed, sample, pixel) / probability;
   }
-  if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, film_limit, jitter.z))
+  const float limit = limit_of_sample(frame, enough, film_limit);
+  if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit, jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }

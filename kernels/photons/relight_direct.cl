@@ -29,7 +29,7 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
         Path path = first_way;
         Hit hit = first;
         Surface surface;
-        if (reach_diffuse(&world, &path, &hit, &band, seed, number, (uint)pixel, STREAM_CAMERA, &surface) > 0.0f)
+        if (reach_diffuse(&world, &path, &hit, &band, seed, number, 0u, (uint)pixel, STREAM_CAMERA, &surface) > 0.0f)
           seen = material_of(&world, surface.object).reflector;
       }
       bent[pixel * SURVEY_PLACES * SURVEY_PATHS + (int)number] = seen;
@@ -68,7 +68,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
     Path path = first_way;
     Hit hit = first;
     Surface surface;
-    weight *= reach_diffuse(&world, &path, &hit, &band, seed, sample, (uint)pixel, STREAM_CAMERA, &surface);
+    weight *= reach_diffuse(&world, &path, &hit, &band, seed, sample, 0u, (uint)pixel, STREAM_CAMERA, &surface);
     if (weight == 0.0f) continue;
     if (!straight) weight *= cluster_left(&world.tables, &path.losses, band.cluster);
     const int reflector = material_of(&world, surface.object).reflector;

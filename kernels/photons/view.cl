@@ -42,7 +42,7 @@ static inline VisiblePoint see(const World* world, Path path, Hit hit, const Ban
 {
   VisiblePoint point = nothing_visible();
   Surface surface;
-  const float radiance_scale = reach_diffuse(world, &path, &hit, band, seed, sample, pixel, STREAM_VIEW, &surface);
+  const float radiance_scale = reach_diffuse(world, &path, &hit, band, seed, sample, 0u, pixel, STREAM_VIEW, &surface);
   if (radiance_scale == 0.0f) return point;
   const int reflector = material_of(world, surface.object).reflector;
   point.position = (float4)(surface.position, 0.0f);

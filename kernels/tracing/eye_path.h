@@ -69,6 +69,19 @@ static inline float4 sky_numbers(const DeviceLight* light, uint2 seed, uint samp
 #endif
 }
 
+// Four numbers for sample `sample` of a pixel, which takes `paths` of them a frame: of a sequence, as sky_numbers; or plain ones, where paths
+// is 0. block: which four.
+static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel, uint block, uint stream)
+{
+#if NEPHROID_LOW_DISCREPANCY
+  if (paths > 0u) {
+    const uint frame = sample / paths, index = frame / NEPHROID_FILM_HALVES * paths + sample % paths;
+    return sobol4(seed, (uint3)(pixel, stream << 8 | block, frame % NEPHROID_FILM_HALVES), 3u, index);
+  }
+#endif
+  return random4(seed, sample, pixel, block, stream);
+}
+
 // What the environment sends unbent to the side of a surface that a path arrives at, as irradiance times Source::rgb. Two shadow rays, one
 // drawn by the map's flux and one by the cosine, weighted by the balance heuristic (Veach 1997, 9.2.2): each radiance * cosine over the sum
 // of both densities. The first finds a sun, the second is exact where the sky is even.
@@ -101,8 +114,8 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
 // diffuse surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost:
 // radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and
 // refraction. likelier: the path takes the likelier of the two everywhere, for a first picture without noise.
-static inline float reach_end(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel, uint stream,
-                              bool likelier, Surface* surface)
+static inline float reach_end(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint paths, uint pixel,
+                              uint stream, bool likelier, Surface* surface)
 {
   float radiance_scale = 1.0f;
   float4 choices = (float4)(0.0f);
@@ -114,7 +127,7 @@ static inline float reach_end(const World* world, Path* path, Hit* hit, const Ba
     lose_in_medium(world, path, hit->t);
     if (material.type == MATERIAL_DIFFUSE) return radiance_scale;
     if ((surface_number & 3) == 0)
-      choices = likelier ? (float4)(0.5f) : random4(seed, sample, pixel, 1u + (uint)surface_number / 4u, stream);
+      choices = likelier ? (float4)(0.5f) : eye_numbers(seed, sample, surface_number == 0 ? paths : 0u, pixel, 1u + (uint)surface_number / 4u, stream);
     float n_ratio;
     if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, &n_ratio)) return 0.0f;
     radiance_scale *= n_ratio * n_ratio;
@@ -124,10 +137,10 @@ static inline float reach_end(const World* world, Path* path, Hit* hit, const Ba
 }
 
 // The same to a diffuse surface only: 0 where the path leaves the scene.
-static inline float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint pixel,
-                                  uint stream, Surface* surface)
+static inline float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint paths,
+                                  uint pixel, uint stream, Surface* surface)
 {
-  const float radiance_scale = reach_end(world, path, hit, band, seed, sample, pixel, stream, false, surface);
+  const float radiance_scale = reach_end(world, path, hit, band, seed, sample, paths, pixel, stream, false, surface);
   return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
 }
 

@@ -11,6 +11,9 @@
 // One contribution may be at most 2^42 quanta: 2^20 of the largest still fit below 2^63.
 #define FILM_LIMIT 0x1p42f
 
+// The largest that the sample of that number may have, of which a pixel takes `enough` with a limit of their own and any number more.
+static inline float limit_of_sample(uint number, uint enough, float limit) { return number < enough ? limit : fmin(limit, FILM_LIMIT); }
+
 #ifdef NEPHROID_INT64_ATOMICS
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
 static inline void add_exactly(volatile __global long* sum, long value) { atom_add(sum, value); }

@@ -2,8 +2,8 @@
 // Paths from the eye in steps of some pixels: kernels/photons/view.cl finds where they end, the caller gathers photons there.
 #pragma once
 #include "kernels/photons/photon_map_types.h"
-#include "photons/sampled_pixels.h"
 #include "photons/tables/device_world.h"
+#include "tracing/step_size.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,10 +12,13 @@ namespace nephroid::photons {
 
 class EyePaths {
 public:
-  /// enough: of SampledPixels.
-  EyePaths(DeviceWorld& world, std::int64_t enough)
-      : world_(world), points_(world.context, "visible points", point_count(world.tables.camera)),
-        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")), pixels_(world, enough)
+  /// Of all pixels, or of those of glass.
+  enum class Pixels { all, glass };
+  EyePaths(DeviceWorld& world, Pixels pixels)
+      : world_(world), begin_(pixels == Pixels::all ? 0 : world.pixels.count),
+        size_(pixels == Pixels::all ? world.pixels.count : static_cast<std::uint32_t>(world.pixels.glass.size())),
+        points_(world.context, "visible points", point_count(world.tables.camera)),
+        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")), steps_(size_, 1024)
   {
   }
   /// What it takes on the device.
@@ -30,24 +33,28 @@ public:
   template <class Gather>
   bool step(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather)
   {
-    const auto work = [&](std::uint32_t first, std::uint32_t count) {
+    if (size_ == 0) return true;
+    return steps_.step(size_, static_cast<std::int64_t>(points_.size()), [&](std::uint32_t done, std::uint32_t count) {
+      const std::uint32_t first = begin_ + done;
       for (std::uint32_t path = 0; path < paths.count; ++path) {
         look(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster,
              world_.pixels.on_device, first, count);
         gather(first, count);
       }
       world_.context.finish();
-    };
-    return pixels_.step(pass, work, static_cast<std::int64_t>(points_.size()));
+    });
   }
 
   /// Stage::warm_up for its kernel.
   void warm_up() { look(world_.tables.camera, world_.seed, 0, {}, 0, world_.pixels.on_device, 0, 0); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
-  const SampledPixels& pixels() const { return pixels_; }
+  double part() const { return steps_.part(); }
+  /// How many pixels of the pass in hand are done, of size().
+  std::int64_t done() const { return steps_.done(); }
+  std::uint32_t size() const { return size_; }
 
-  void state(tracing::State& state) { pixels_.state(state); }
+  void state(tracing::State& state) { steps_.state(state); }
 
   /// The next path of each of `count` of the camera's pixels, into points().
   void look(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster,
@@ -77,9 +84,10 @@ private:
   }
 
   DeviceWorld& world_;
+  std::uint32_t begin_, size_; ///< of the pixels in DeviceWorld::pixels
   compute::Buffer<shared::VisiblePoint> points_;
   compute::Kernel view_;
-  SampledPixels pixels_;
+  tracing::PixelSteps steps_;
 };
 
 } // namespace nephroid::photons

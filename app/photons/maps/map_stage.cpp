@@ -22,16 +22,23 @@ class MapStage final : public Stage {
 public:
   MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), map_(world.map.value()), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
-        paths_(world.tables.eye_paths), eye_(world, 0), film_(world.zeroed("film photon maps", world.film_size())),
+        paths_(world.tables.eye_paths), eye_(world, EyePaths::Pixels::glass), film_(world.zeroed("film photon maps", world.film_size())),
         first_film_(world.first_film()),
         gather_(compute::Program(world.context, "photons/gather.cl", world.defines).kernel("gather_to_film"))
   {
   }
 
   const char* name() const override { return "photon maps"; }
-  double part() const override { return eye_.pixels().part(); }
-  double glass_work() const override { return paths_ * work_of_a_path * static_cast<double>(eye_.pixels().glass()); }
-  void share_work(double factor) override { paths_ = static_cast<std::uint32_t>(std::clamp(std::round(paths_ * factor), 1.0, 64.0)); }
+  double part() const override { return eye_.part(); }
+  void share_work(const Noise& noise) override
+  {
+    double sum = 0;
+    for (const std::uint32_t pixel : world_.pixels.glass)
+      for (std::size_t c = 0; c < 3; ++c) sum += noise.of(3 * std::size_t{pixel} + c);
+    const double work = static_cast<double>(noise.passes) * paths_ * work_of_a_path * eye_.size();
+    if (work > 0)
+      paths_ = static_cast<std::uint32_t>(std::clamp(std::round(paths_ * std::sqrt(sum / work / noise.photon_gain)), 1.0, 64.0));
+  }
 
   /// Over no photon and no pixel.
   void warm_up() override
@@ -78,10 +85,12 @@ public:
     return complete;
   }
 
-  void develop(std::int64_t, bool, job::Picture& picture) override
+  void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const double scale = world_.tables.caustic_scale * world_.white;
-    tracing::add_layer("caustic", {film_.read(), scale, [&](std::size_t pixel) { return eye_.pixels().samples(pixel); }}, picture);
+    const std::int64_t complete = passes + (done ? 1 : 0);
+    const std::uint32_t next = eye_.done() > 0 ? world_.pixels.glass[static_cast<std::size_t>(eye_.done())] : 0; // in the pass in hand
+    const auto samples = [=](std::size_t pixel) { return tracing::halves_of(complete + (pixel < next ? 1 : 0), 0); };
+    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
   void state(tracing::State& state) override

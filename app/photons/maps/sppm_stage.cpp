@@ -39,7 +39,7 @@ public:
   SppmStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), photons_(static_cast<std::uint32_t>(settings.photons_per_pass)),
         random_(settings.effort == Settings::Effort::random), alpha_(settings.sppm.alpha), first_radius_(first_map_radius(settings, scene)),
-        map_(world.context, photons_, world.defines), eye_(world, preset::max_passes), unused_(world.context, "unused", 0),
+        map_(world.context, photons_, world.defines), eye_(world, EyePaths::Pixels::all), unused_(world.context, "unused", 0),
         no_guide_(world.context, "unused", 0)
   {
     compute::Defines defines = world.photon_defines();
@@ -101,7 +101,7 @@ public:
       const bool in_hand = !done && (random_ || run == at_.cluster);
       // Pixels up to the split have had the iteration in hand.
       const std::uint32_t split = done || (!random_ && run < at_.cluster) ? pixel_count()
-                                  : in_hand                               ? static_cast<std::uint32_t>(eye_.pixels().done())
+                                  : in_hand                               ? static_cast<std::uint32_t>(eye_.done())
                                                                           : 0;
       add_radiance_.run(pixel_count(), 64,
                         {{"statistics", runs_[static_cast<std::size_t>(run)].statistics},
