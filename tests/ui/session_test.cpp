@@ -239,7 +239,9 @@ TEST_F(SessionTest, WrongValuesAreRefused)
   EXPECT_THROW(parse_session(with("\"index\":0", "\"index\":7"), ""), Error);
   EXPECT_THROW(parse_session(with("\"index\":0", "\"index\":-1"), ""), Error);
   EXPECT_THROW(parse_session(with("\"saved\":0", "\"saved\":4"), ""), Error);
+  EXPECT_THROW(parse_session(with("\"index\":0", "\"index\":1e300"), ""), Error);
   EXPECT_THROW(parse_session(with("\"version\":1", "\"version\":2"), ""), Error);
+  EXPECT_THROW(parse_session(with("\"version\":1", "\"version\":4.4e30"), ""), Error);
   EXPECT_THROW(parse_session(with("\"zoom\":1.0", "\"zoom\":1e300"), ""), Error);
   EXPECT_THROW(parse_session(with("\"fov_deg\":40.0", "\"fov_deg\":400.0"), ""), Error) << "no preset may have it";
   EXPECT_THROW(parse_session("[[[[", ""), Error);

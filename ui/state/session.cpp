@@ -112,9 +112,7 @@ UndoStack::State read_edits(const Json& value)
                              0, read_sweep(entry.value("sweep", Json::array()))});
   }
   const auto index_of = [&](const Json& json) {
-    const auto index = json.get<std::size_t>();
-    if (index >= state.entries.size()) throw std::out_of_range("the current entry is not there");
-    return index;
+    return static_cast<std::size_t>(within(json, 0, static_cast<double>(state.entries.size()) - 1));
   };
   state.index = index_of(value.at("index"));
   if (!value.at("saved").is_null()) state.saved = index_of(value.at("saved"));
@@ -137,7 +135,7 @@ auto read_kept(const std::string& text, int version, const Place& source, const 
 {
   try {
     const Json value = Json::parse(text);
-    if (value.at("version").get<int>() != version) throw std::out_of_range("it is of another version of the program");
+    if (value.at("version") != Json(version)) throw std::out_of_range("it is of another version of the program");
     return read(value);
   } catch (const std::exception& error) { // of the JSON library, or of the checks above
     throw bad_input(source, fmt::format("{} ({})", what_is_wrong, error.what()), "", remedy);
@@ -252,8 +250,8 @@ Session parse_session(const std::string& text, const std::string& source)
     session.chosen.error_metric = value.at("error_metric").get<std::string>();
     session.chosen.material = value.at("material").get<std::string>();
     for (const Json& pin : value.at("pins"))
-      session.pins.push_back({pin.at("folder").get<std::string>(), pin.at("name").get<std::string>(), pin.at("colour").get<std::uint32_t>(),
-                              pin.at("shown").get<bool>()});
+      session.pins.push_back({pin.at("folder").get<std::string>(), pin.at("name").get<std::string>(),
+                              static_cast<std::uint32_t>(within(pin.at("colour"), 0, 0xffffffff)), pin.at("shown").get<bool>()});
     for (const Json& bookmark : value.at("bookmarks")) session.chosen.bookmarks.push_back(read_bookmark(bookmark));
     if (value.contains("edits")) session.edits = read_edits(value.at("edits"));
     return session;
