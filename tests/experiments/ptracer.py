@@ -170,7 +170,7 @@ def measure(program, out, name):
     shadow = floor & (direct == 0) & (truth > 0)
     # The programs' units: of the light as written from the floor in plain light, of the light aimed by hand from the shadow.
     written = grey(theirs[False][0][-1])
-    unit = written[lit].mean() / direct[lit].mean()
+    unit = written[lit].mean() / grey(ours[0][-1])[lit].mean()
     agreement = unit * grey(ours[0][-1])[shadow].mean() / written[shadow].mean()
     unit = truth[shadow].mean() / grey(ours[0][-1])[shadow].mean()
     level = truth[shadow].mean()
