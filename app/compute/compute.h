@@ -72,6 +72,8 @@ public:
   /// (no OpenCL platform, no HOME and an unwritable kernel cache).
   static Context open(const DeviceOptions& options = {});
   const DeviceInfo& device() const;
+  /// How many programs were built for it so far.
+  std::size_t builds() const;
   /// Waits until everything queued is done. Throws failed with the first error.
   void finish();
   std::shared_ptr<detail::ContextState> state;

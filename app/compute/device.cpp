@@ -143,6 +143,8 @@ void tell_of_compiling(const Context& context, std::function<void()> tell) { con
 
 const DeviceInfo& Context::device() const { return state->info; }
 
+std::size_t Context::builds() const { return state->builds; }
+
 void Context::finish()
 {
   try {

@@ -121,9 +121,10 @@ BuildError build_error(const std::string& file, const std::string& device, const
   return {file, fmt::format("clBuildProgram gave CL_BUILD_PROGRAM_FAILURE for {}: {}", device, first.empty() ? log : first), log};
 }
 
-cl::Program build(const detail::ContextState& context, const std::string& file, const std::string& source, const std::string& options)
+cl::Program build(detail::ContextState& context, const std::string& file, const std::string& source, const std::string& options)
 {
   context.tell_of_compiling();
+  ++context.builds;
   cl::Program program(context.context, source);
   try {
     program.build(context.device, options.c_str());

@@ -225,12 +225,12 @@ struct Worker::Impl {
         continue;
       }
       job.step();
-      Clock::duration wait{};
+      Clock::duration wait = Clock::duration::max(); // nobody waits for the picture of a job that was replaced
       update(generation, [&, progress = job.progress()] {
         status.progress = progress;
-        wait = std::max<Clock::duration>(interval, work_a_snapshot * snapshot_took);
+        wait = shown ? std::max<Clock::duration>(interval, work_a_snapshot * snapshot_took) : Clock::duration{};
       });
-      if (!shown || Clock::now() - *shown >= wait) {
+      if (wait == Clock::duration{} || (shown && Clock::now() - *shown >= wait)) {
         publish(generation, job);
         shown = Clock::now();
       }

@@ -104,7 +104,7 @@ private:
     std::uint32_t slice = 0, slices = 1;
   };
   Position at_;
-  StepSize photons_a_step_{1024};
+  StepSize photons_a_step_{4096};
 };
 
 } // namespace nephroid::tracing
