@@ -35,7 +35,8 @@ std::vector<int> edges_of_first_pictures(int width, int height)
   constexpr double most_blocks = 64 * 64 * 1.25;
   int edge = 1;
   while (static_cast<double>(width) * height / edge / edge > most_blocks) edge *= 2;
-  std::vector<int> edges{edge, edge / 2};
+  if (edge == 1) return {};
+  std::vector<int> edges{2 * edge, edge, edge / 2};
   std::erase_if(edges, [](int blocks) { return blocks <= 1; });
   return edges;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels, rows or photons of a pass in steps of about 50 ms.
+// The pixels, rows or photons of a pass in steps of about 30 ms.
 #pragma once
 #include "tracing/state.h"
 
@@ -28,7 +28,7 @@ public:
   }
 
 private:
-  static constexpr double step_seconds = 0.05;
+  static constexpr double step_seconds = 0.03;
   double amount_;
 };
 
