@@ -53,7 +53,7 @@ private:
   void begin()
   {
     preset::at_origins(target_.preset, [&] {
-      shared_.prepared = run::prepare(target_.preset, shared_.prepared ? &*shared_.prepared : nullptr);
+      shared_.prepared = run::prepare(target_.preset, shared_.prepared ? &*shared_.prepared : nullptr, {interrupted_, {}});
       run::require_memory(*shared_.prepared, device_of(options_, shared_)); // what cannot be leaves no folder
     });
     run::claim_folder(target_.folder);

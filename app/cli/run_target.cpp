@@ -50,14 +50,16 @@ public:
 
   void operator()(Shared& shared)
   {
-    shared.prepared = run::prepare(target_.preset, shared.prepared ? &*shared.prepared : nullptr);
+    const Watch watch{interrupted_, [this](const std::string& doing) {
+                        if (progress_style(options_.json) == ProgressStyle::live) activity_.show(target_.label + "  " + doing);
+                      }};
+    shared.prepared = run::prepare(target_.preset, shared.prepared ? &*shared.prepared : nullptr, watch);
+    activity_.clear();
     const run::Prepared& prepared = *shared.prepared;
     for (const std::string& note : prepared.plan->notes)
       if (!is_frame() || shared.notes.insert(note).second) fmt::print(stderr, "note: {}\n", note);
     const compute::Context& context = device_of(options_, shared);
-    compute::tell_of_compiling(context, [this] {
-      if (progress_style(options_.json) == ProgressStyle::live) activity_.show(target_.label + "  compiling kernels");
-    });
+    compute::tell_of_compiling(context, [watch] { watch.tell("compiling kernels"); });
     std::unique_ptr<job::Job> job = taken_on(shared);
     if (!job) run::require_memory(prepared, context); // a run that cannot be leaves no folder
     const bool is_new_folder = run::claim_folder(target_.folder);

@@ -147,7 +147,8 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
     }
   plan.defines = task.defines;
   plan.layers = plan.render ? Renderer::layers(*plan.render) : 1;
-  plan.smaller = "choose fewer environment.directions or environment.spheres, or a smaller environment.resolution";
+  plan.smaller =
+      "choose a smaller scene.camera.resolution, fewer environment.directions or environment.spheres, or a smaller environment.resolution";
   plan.notes = scene.warnings;
   if (fault && !fault->empty()) plan.notes.push_back(fmt::format("{}: {}; it is baked again", plan.bake_file.string(), *fault));
   if (!plan.render && (scene.environment || !scene.lights.empty()))

@@ -74,9 +74,6 @@ void check(const preset::Preset& preset, const Where& where)
   };
   const bool lens = s.method == Method::lens, free_heights = s.heights == Settings::Heights::free;
   check_scene(preset, where);
-  if (preset.white == 0)
-    throw bad_input(where("/white"), "is \"auto\", and has no meaning for the engine 'inverse', whose pictures are bright as they are",
-                    "expected none", "remove it");
   check_receivers(s, "/inverse/receivers", where);
   if (s.frames > 0 && s.receivers.size() == 1)
     refuse("frames", fmt::format("is {}, and there is one receiver", s.frames), "expected two or more, between which a screen can move",

@@ -275,7 +275,11 @@ struct Worker::Impl {
           if (state != State::failed) set_state(generation, state);
         } while (wait_for_adoption(generation, *job));
     } catch (...) {
-      set_failed(generation, error_of(std::current_exception()));
+      const Error error = error_of(std::current_exception());
+      if (error.kind() == ErrorKind::interrupted && stopped())
+        set_state(generation, State::cancelled);
+      else
+        set_failed(generation, error);
     }
     update(generation, [&] {
       has_job = false;

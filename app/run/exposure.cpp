@@ -47,6 +47,7 @@ double white_for(const job::Picture& picture)
 double fitted_white(const Prepared& prepared, const compute::Context& context, const std::stop_token& stop)
 {
   preset::Preset preset = prepared.preset;
+  if (std::ranges::count(preset.settings.type().without, "white") > 0) return 1; // the engine's pictures are bright as they are
   preset.white = 1;
   preset.stop = {};
   preset.stop.passes = 1;

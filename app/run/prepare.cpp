@@ -44,18 +44,20 @@ std::vector<plan::Input> inputs_of_scene(const Prepared& lender)
   return read_inputs(scene_only, lender.plan->inputs);
 }
 
-LoadedScene load(const preset::Preset& preset, const Prepared* previous, bool lends_scene)
+LoadedScene load(const preset::Preset& preset, const Prepared* previous, bool lends_scene, const Watch& watch)
 {
   if (lends_scene) {
     LoadedScene loaded = *previous->loaded;
     loaded.scene.camera = scene::make_camera(preset.scene.camera, loaded.scene);
     return loaded;
   }
-  LoadedScene loaded{scene::load_scene(preset), nullptr};
+  LoadedScene loaded{scene::load_scene(preset, watch), nullptr};
   if (previous && same_triangles(loaded.scene.geometry, previous->loaded->scene.geometry))
     loaded.bvh = previous->loaded->bvh;
-  else
+  else {
+    watch.begin("sorting the triangles");
     loaded.bvh = std::make_shared<const scene::Bvh>(scene::build_bvh(loaded.scene.geometry));
+  }
   return loaded;
 }
 
@@ -124,12 +126,13 @@ void require_memory(const plan::Plan& plan, int width, int height, const compute
                        fmt::format("{} of this machine's memory are free", readable_bytes(*available)));
 }
 
-Prepared prepare(const preset::Preset& preset, const Prepared* previous)
+Prepared prepare(const preset::Preset& preset, const Prepared* previous, const Watch& watch)
 {
   const bool lends_scene = previous && same_but_camera(preset, previous->preset);
   // Before the files are loaded: of one that is written meanwhile the run is bound to what it held before, and goes on nowhere.
   std::vector<plan::Input> inputs = read_inputs(preset, lends_scene ? inputs_of_scene(*previous) : std::vector<plan::Input>());
-  auto loaded = std::make_shared<const LoadedScene>(load(preset, previous, lends_scene));
+  auto loaded = std::make_shared<const LoadedScene>(load(preset, previous, lends_scene, watch));
+  watch.begin("making the plan");
   std::unique_ptr<plan::Plan> plan = engine::engine_of(preset).plan(preset, loaded->scene, *loaded->bvh);
   plan->buffers.push_back(picture_and_files(*plan, loaded->scene.camera.width, loaded->scene.camera.height));
   plan->inputs = std::move(inputs);

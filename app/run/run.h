@@ -2,6 +2,7 @@
 // From a preset to a running engine and to the files of a finished run: the one place that knows all engines.
 // The command line and the window both come through here.
 #pragma once
+#include "base/watch.h"
 #include "compute/compute.h"
 #include "image/image.h"
 #include "job/job.h"
@@ -47,8 +48,9 @@ struct Prepared {
 };
 
 /// Reads what the preset names and makes the plan. `previous`, if given, lends its scene where only the camera or the engine's
-/// settings differ (files are not read again then), and its tree where the triangles are the same. Throws bad_input as the loaders do.
-Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr);
+/// settings differ (files are not read again then), and its tree where the triangles are the same. Throws bad_input as the loaders do, and
+/// interrupted where `watch` asks for it.
+Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullptr, const Watch& watch = {});
 
 /// Throws failed where the device or this machine has not enough memory for the run. make_job asks this first.
 void require_memory(const Prepared& prepared, const compute::Context& context);
@@ -74,7 +76,7 @@ std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Cont
 double white_for(const job::Picture& picture);
 
 /// The same of the preset's first whole picture, at most 256 pixels wide and high, whatever the preset's white is: what stands for "auto".
-/// Throws as prepare and make_job do, and interrupted where `stop` asks for it.
+/// 1 where white changes nothing of the engine's pictures. Throws as prepare and make_job do, and interrupted where `stop` asks for it.
 double fitted_white(const Prepared& prepared, const compute::Context& context, const std::stop_token& stop = {});
 
 /// The white of the run in the folder, by its preset.json; nothing where that is missing or damaged, or says "auto".

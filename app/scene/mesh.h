@@ -2,6 +2,8 @@
 // Surfaces, which are triangle meshes and ellipsoids: the plain data, reading meshes from files, checks. Shapes that the program makes are
 // declared in scene.h.
 #pragma once
+#include "base/watch.h"
+
 #include <glm/glm.hpp>
 
 #include <array>
@@ -40,12 +42,12 @@ inline constexpr std::uint64_t max_triangles = std::uint64_t{1} << 28;
 /// triangles, points and lines left out. Vertices are joined where position and normal are equal, so creases stay creases;
 /// normals are the file's own (not STL's, which are a facet's), mended where they oppose the triangles, or empty. Degenerate triangles are
 /// kept: see drop_useless(). Throws bad_input naming the file: unreadable, no triangle with an area, a coordinate that is not finite, too
-/// many triangles.
-Mesh load_mesh(const std::filesystem::path& file);
+/// many triangles; interrupted where `stop` asks for it.
+Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop = {});
 /// The same, but a file with the same bytes as before is not read again, as far as the last meshes take no more than 256 MiB together:
 /// while an object is moved its scene is loaded again and again, and reading a mesh takes longest of that. Safe from several threads. One
 /// that has further files is read each time.
-std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file);
+std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, const Watch& watch = {});
 /// Whether the mesh's data may be in other files, which this one names: a .gltf's.
 bool has_further_files(const std::filesystem::path& file);
 

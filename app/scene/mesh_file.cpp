@@ -49,13 +49,15 @@ public:
   ~Reader()
   {
     if (id_ < 0) return;
-    kill(id_, SIGKILL);
+    end();
     wait();
   }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
   std::FILE* answer() const { return answer_.get(); }
+
+  void end() const { kill(id_, SIGKILL); }
 
   /// Waits for its end; the status as waitpid gives it.
   int wait()
@@ -87,9 +89,12 @@ std::string reason_of_death(int status, unsigned cpu_seconds)
 }
 
 /// The mesh as the reader program has it. Throws std::runtime_error with the reason why there is none.
-Mesh ask_reader(Reader& reader, unsigned cpu_seconds)
+Mesh ask_reader(Reader& reader, unsigned cpu_seconds, const std::stop_token& stop)
 {
-  std::optional<MeshAnswer> answer = take_answer(reader.answer());
+  std::optional<MeshAnswer> answer = [&] {
+    const std::stop_callback end(stop, [&reader] { reader.end(); });
+    return take_answer(reader.answer());
+  }();
   const int status = reader.wait();
   if (!answer || status != 0) throw std::runtime_error(reason_of_death(status, cpu_seconds));
   return mesh_of(std::move(*answer));
@@ -160,7 +165,7 @@ Mesh mesh_of(MeshAnswer answer)
   return mesh;
 }
 
-Mesh load_mesh(const std::filesystem::path& file)
+Mesh load_mesh(const std::filesystem::path& file, const std::stop_token& stop)
 {
   const Place where = file.string();
   std::size_t size = 0;
@@ -175,8 +180,9 @@ Mesh load_mesh(const std::filesystem::path& file)
   Reader reader(file, cpu_seconds, (std::size_t{2} << 30) + 64 * size);
   Mesh mesh = [&] {
     try {
-      return ask_reader(reader, cpu_seconds);
+      return ask_reader(reader, cpu_seconds, stop);
     } catch (const std::runtime_error& refusal) {
+      if (stop.stop_requested()) throw Error(ErrorKind::interrupted, where, "interrupted while the mesh was read");
       throw bad_input(where, "the mesh cannot be read: " + printable(refusal.what()), formats, "check the file in another program");
     }
   }();
@@ -188,11 +194,12 @@ Mesh load_mesh(const std::filesystem::path& file)
 
 bool has_further_files(const std::filesystem::path& file) { return file.extension() == ".gltf" || file.extension() == ".GLTF"; }
 
-std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file)
+std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, const Watch& watch)
 {
+  watch.begin("reading " + file.filename().string());
   static std::mutex mutex;
   static std::list<Kept> all; // the last used first
-  if (has_further_files(file)) return std::make_shared<const Mesh>(load_mesh(file));
+  if (has_further_files(file)) return std::make_shared<const Mesh>(load_mesh(file, watch.stop));
   const std::lock_guard lock(mutex);
   const std::string bytes = read_file(file);
   PieceHash hash;
@@ -203,7 +210,7 @@ std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file)
       all.splice(all.begin(), all, kept);
       return kept->mesh;
     }
-  wanted.mesh = std::make_shared<const Mesh>(load_mesh(file));
+  wanted.mesh = std::make_shared<const Mesh>(load_mesh(file, watch.stop));
   all.remove_if([&](const Kept& kept) { return kept.file == file; });
   all.push_front(wanted);
   std::uint64_t sum = 0;

@@ -28,17 +28,18 @@ void check_names(const std::vector<preset::Object>& objects, const Place& where)
 /// Reads each file once, however many objects name it and however large it is.
 class Meshes {
 public:
-  explicit Meshes(const FileFinder& finder) : finder_(finder) {}
+  Meshes(const FileFinder& finder, const Watch& watch) : finder_(finder), watch_(watch) {}
   std::shared_ptr<const Mesh> get(const std::string& name, const Place& where)
   {
     const std::filesystem::path file = finder_.find(name, where);
     auto found = meshes_.find(file);
-    if (found == meshes_.end()) found = meshes_.emplace(file, load_mesh_once(file)).first;
+    if (found == meshes_.end()) found = meshes_.emplace(file, load_mesh_once(file, watch_)).first;
     return found->second;
   }
 
 private:
   const FileFinder& finder_;
+  const Watch& watch_;
   std::map<std::filesystem::path, std::shared_ptr<const Mesh>> meshes_;
 };
 
@@ -202,7 +203,7 @@ std::vector<int> dielectrics_around(const Scene& scene, const glm::dvec3& p)
   return result;
 }
 
-Scene load_scene(const preset::Preset& preset)
+Scene load_scene(const preset::Preset& preset, const Watch& watch)
 {
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
   const Place where = Place(preset.source) / "scene";
@@ -213,7 +214,7 @@ Scene load_scene(const preset::Preset& preset)
     scene.materials.push_back(make_material(name, material, finder, where / "materials" / name, scene.warnings));
 
   check_names(preset.scene.objects, where / "objects");
-  Meshes meshes(finder);
+  Meshes meshes(finder, watch);
   std::vector<Pending> pending;
   for (std::size_t i = 0; i < preset.scene.objects.size(); ++i) {
     const preset::Object& object = preset.scene.objects[i];
@@ -222,6 +223,7 @@ Scene load_scene(const preset::Preset& preset)
     const Placement placement = make_placement(object.transform);
     pending.push_back({object_mesh(object, meshes, object_where), placement, static_cast<int>(material), object_where});
   }
+  watch.begin("looking at the objects");
   scene.origin = choose_origin(pending, scene, preset.scene.camera);
   for (std::size_t i = 0; i < pending.size(); ++i) {
     add_object(scene, preset.scene.objects[i], pending[i], preset.scene.damaged_meshes);

@@ -100,8 +100,8 @@ inline const Material& material_of(const Scene& scene, const Object& object)
 /// Triangles are turned so that a mirroring transform (a negative scale) keeps them outwards; triangles without
 /// area and duplicates are dropped with a warning. A dielectric that is inside out, or has holes, is told of in a warning (the former
 /// is turned round) or refused, as Scene::damaged_meshes of the preset says.
-/// Throws bad_input at FILE#/pointer or at the mesh file.
-Scene load_scene(const preset::Preset& preset);
+/// Throws bad_input at FILE#/pointer or at the mesh file, interrupted where `watch` asks for it.
+Scene load_scene(const preset::Preset& preset, const Watch& watch = {});
 
 /// The camera alone, for a view that changes while everything else stays. Throws bad_input at FILE#/scene/camera/...
 Camera make_camera(const preset::Camera& camera, const Scene& scene);

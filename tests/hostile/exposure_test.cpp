@@ -75,7 +75,15 @@ TEST_F(Exposure, BadOnesAreRefusedInOneLine)
   };
   refused("spectral/plate", "automatic", R"(expected a number from 1e-12 to 1000000000000 W/(m^2 sr) or "auto")");
   refused("spectral/plate", "0", "is 0; expected a number");
-  refused("inverse/words", "auto", "has no meaning for the engine 'inverse'");
+}
+
+TEST_F(Exposure, IsOneWhereWhiteChangesNothing)
+{
+  const Ended ended = nephroid::test::nephroid({"run", "inverse/shapes", "-o", "out", "--passes", "1", "--set", "inverse.facets=[16,16]",
+                                                "--set", "inverse.cells=[8,8]", "--set", "white=auto"},
+                                               scratch.path(), logs);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(json::parse(read_file(scratch.path() / "out" / "preset.json"))["white"], 1);
 }
 
 } // namespace nephroid::exposure_test

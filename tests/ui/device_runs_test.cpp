@@ -77,7 +77,7 @@ TEST_F(EngineTest, WithoutAFolderNothingChanges)
 {
   DeviceRuns engine({});
   const preset::Preset preset = preset::parse_preset(test::preset_text, "test");
-  NewRun run = engine.make(preset);
+  NewRun run = engine.make(preset, {});
   ASSERT_NE(run.job, nullptr);
   EXPECT_FALSE(engine.take_changed());
 }

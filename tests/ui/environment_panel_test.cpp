@@ -37,9 +37,9 @@ private:
 
 class LitRuns : public test::FakeRuns {
 public:
-  NewRun make(const preset::Preset& preset) override
+  NewRun make(const preset::Preset& preset, const Watch& watch) override
   {
-    NewRun run = FakeRuns::make(preset);
+    NewRun run = FakeRuns::make(preset, watch);
     if (lights > 0 || bakes) run.job = std::make_unique<LitJob>(preset, *this, lights.load(), bakes.load());
     return run;
   }

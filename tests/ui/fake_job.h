@@ -100,9 +100,12 @@ private:
 /// Gives fake jobs; outlives the workbench.
 class FakeRuns : public ui::RunSource, public FakeSettings {
 public:
-  ui::NewRun make(const preset::Preset& preset) override
+  ui::NewRun make(const preset::Preset& preset, const Watch& watch) override
   {
-    std::this_thread::sleep_for(std::chrono::milliseconds(make_ms));
+    do {
+      watch.begin("reading bunny.obj");
+      std::this_thread::sleep_for(std::chrono::milliseconds(make_ms));
+    } while (reads_on);
     ++made;
     if (refusal) throw *refusal;
     if (broken) throw failed("photons.cl:12", "expected ';' after expression");
@@ -112,7 +115,6 @@ public:
   }
   void reread_files() override { ++reread; }
   void reopen_device() override { ++reopened; }
-  bool compiling() const override { return compiles; }
   bool take_changed() override { return changed.exchange(false); }
 
   plan::Plan plan;                                     ///< but for its notes; set before a run starts, as is
@@ -120,7 +122,8 @@ public:
   std::optional<Error> refusal;                        ///< and this: of the preset
   double white = 0;                                    ///< in place of "auto"
   std::atomic<int> made{0}, reread{0}, reopened{0};
-  std::atomic<bool> changed{false}, broken{false}, compiles{false}; ///< the kernels
+  std::atomic<bool> changed{false}, broken{false}; ///< the kernels
+  std::atomic<bool> reads_on{false};               ///< runs do not come to the end of a file
 };
 
 /// The newest message's line; empty where there is none.

@@ -60,9 +60,9 @@ private:
 
 class LayeredRuns : public FakeRuns {
 public:
-  ui::NewRun make(const preset::Preset& preset) override
+  ui::NewRun make(const preset::Preset& preset, const Watch& watch) override
   {
-    ui::NewRun run = FakeRuns::make(preset);
+    ui::NewRun run = FakeRuns::make(preset, watch);
     run.job = std::make_unique<LayeredJob>(preset, *this);
     return run;
   }

@@ -106,10 +106,35 @@ TEST_F(LayoutTest, EachEngineHasItsOwn)
   EXPECT_FALSE(seen(ParametersPanel::title)) << "a tab behind the others";
 }
 
+TEST_F(LayoutTest, ASmallWindowHasRoomForThePictureAndEveryMenu)
+{
+  resize({320, 240});
+  open();
+  frames(6);
+  EXPECT_TRUE(seen(ViewPanel::title));
+  EXPECT_GT(view().canvas().size[0], 250);
+  EXPECT_GT(view().canvas().size[1], 100);
+  click_in(workspace, "menu:Menu", 3);
+  EXPECT_TRUE(workspace.place_of("menu:Help"));
+  move(workspace.place_of("menu:File").value());
+  frames(30); // it opens under the mouse
+  click_in(workspace, "menu:File/New scene", 3);
+  EXPECT_EQ(workbench.preset()->source, "");
+}
+
 class ParametersInFront : public LayoutTest {
 protected:
   ParametersInFront() : LayoutTest("parameters") {}
 };
+
+TEST_F(ParametersInFront, AreSoInASmallWindowToo)
+{
+  resize({320, 240});
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  frames(9);
+  EXPECT_TRUE(seen(ParametersPanel::title));
+  EXPECT_FALSE(seen(ViewPanel::title));
+}
 
 TEST_F(ParametersInFront, StaysInFrontForAnotherEngine)
 {

@@ -118,11 +118,37 @@ TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
 TEST_F(PanelsTest, TheStatusLineSaysWhatTheRunDoes)
 {
   runs.steps = 100000;
-  EXPECT_STREQ(state_word(workbench.run()), "no run");
+  EXPECT_EQ(workbench.run().preparation(), "");
   open();
-  EXPECT_STREQ(state_word(workbench.run()), "running");
-  runs.compiles = true;
-  EXPECT_STREQ(state_word(workbench.run()), "compiling");
+  EXPECT_EQ(workbench.run().preparation(), "") << "it runs";
+  runs.reads_on = true;
+  press(ImGuiKey_F5);
+  ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; }));
+}
+
+TEST_F(PanelsTest, WhatIsReadForLongIsNotWaitedFor)
+{
+  runs.steps = 100000;
+  runs.make_ms = 1;
+  runs.reads_on = true;
+  ASSERT_TRUE(workbench.open(folder.write("test.json", test::preset_text)));
+  ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; }));
+  edit([](preset::Preset& p) { p.scene.camera.position[2] = 2; });
+  frames(10);
+  EXPECT_EQ(workbench.run().preparation(), "reading bunny.obj") << "another camera waits for the same files";
+  press(ImGuiKey_Escape);
+  ASSERT_TRUE(until(job::State::cancelled));
+  press(ImGuiKey_F5);
+  ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; }));
+  runs.reads_on = false;
+  ASSERT_TRUE(until(job::State::running));
+  EXPECT_EQ(runs.made, 1) << "neither the first nor the second";
+  runs.reads_on = true;
+  press(ImGuiKey_F5);
+  ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; }));
+  ASSERT_TRUE(workbench.open(folder.write("other.json", test::preset_text)));
+  ASSERT_TRUE(until([&] { return workbench.run().preparation() == "reading bunny.obj"; })) << "the first is read no more";
+  EXPECT_TRUE(workbench.messages().empty());
 }
 
 TEST_F(PanelsTest, EscapeClosesTheHelpFirst)

@@ -295,6 +295,18 @@ TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
   EXPECT_EQ(workbench.preset()->name, "ball");
 }
 
+TEST_F(StartPageTest, ItsSearchLeavesKeysWithCtrlToTheirActions)
+{
+  frames(3);
+  ASSERT_TRUE(ImGui::GetIO().WantTextInput);
+  press(ImGuiKey_O, ImGuiMod_Ctrl);
+  EXPECT_EQ(workbench.question(), Question::open);
+  press(ImGuiKey_Escape);
+  frames(3);
+  press(ImGuiKey_N, ImGuiMod_Ctrl);
+  EXPECT_NE(workbench.preset(), nullptr);
+}
+
 TEST_F(StartPageTest, AMessageThatComesTakesTheKeyboardFromNobody)
 {
   listed();

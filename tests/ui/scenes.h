@@ -107,9 +107,9 @@ inline std::shared_ptr<const ui::SeenScene> seen_scene(const preset::Preset& pre
 /// Fake jobs, but what there is to see in the scene is looked at as the program does.
 class SceneRuns : public FakeRuns {
 public:
-  ui::NewRun make(const preset::Preset& preset) override
+  ui::NewRun make(const preset::Preset& preset, const Watch& watch) override
   {
-    ui::NewRun run = FakeRuns::make(preset);
+    ui::NewRun run = FakeRuns::make(preset, watch);
     run.seen = ui::look_around(preset, loaded_scene(preset));
     return run;
   }
@@ -118,7 +118,7 @@ public:
 /// Real runs of engine 3, which computes on the host.
 class InverseRuns : public FakeRuns {
 public:
-  ui::NewRun make(const preset::Preset& preset) override
+  ui::NewRun make(const preset::Preset& preset, const Watch&) override
   {
     ++made;
     auto made_plan = std::make_shared<const inverse::InversePlan>(inverse::make_plan(preset));

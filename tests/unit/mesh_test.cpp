@@ -151,6 +151,18 @@ TEST_F(MeshFiles, MendsNormalsOnTheWrongSide)
   EXPECT_NEAR(glm::distance(mesh.normals[2], glm::vec3(0, 0.6, 0.8)), 0, 1e-6);
 }
 
+TEST_F(MeshFiles, IsReadNoFurtherWhereNobodyWaits)
+{
+  std::stop_source stop;
+  stop.request_stop();
+  try {
+    load_mesh(write("cube.obj", cube_obj()), stop.get_token());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::interrupted) << error.line();
+  }
+}
+
 TEST_F(MeshFiles, BunnyIsQuickAndClosed)
 {
   const fs::path bunny = "/usr/share/glmark2/models/bunny.obj";

@@ -15,6 +15,7 @@
 #include <imgui_internal.h>
 
 #include <limits>
+#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -62,6 +63,12 @@ std::span<const MouseHabit> mouse_habits()
 void draw_menus(const Context& context, WidgetPlaces& places)
 {
   std::string menu;
+  float width = 0;
+  for (const Action& action : actions())
+    if (std::exchange(menu, action.menu) != action.menu) width += ImGui::CalcTextSize(menu.c_str()).x + 2 * ImGui::GetStyle().ItemSpacing.x;
+  const bool is_narrow = width > ImGui::GetWindowWidth(); // all of them are in one then
+  if (is_narrow && !ImGui::BeginMenu("Menu")) return places.note("menu:Menu");
+  menu.clear();
   bool open = false;
   for (const Action& action : actions()) {
     if (menu != action.menu) {
@@ -75,6 +82,7 @@ void draw_menus(const Context& context, WidgetPlaces& places)
     places.note("menu:" + menu + "/" + action.name);
   }
   if (open) ImGui::EndMenu();
+  if (is_narrow) ImGui::EndMenu();
 }
 
 void draw_toolbar(const Context& context, WidgetPlaces& places)
@@ -97,9 +105,9 @@ void draw_toolbar(const Context& context, WidgetPlaces& places)
 void run_shortcuts(const Context& context, bool dialog, bool help)
 {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool elsewhere = dialog || io.WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); // an open list has the keyboard
+  const bool elsewhere = dialog || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); // an open list has the keyboard
   int taken = 0; // of actions with the same keys the first that is enabled has them
-  if (help && !elsewhere && ImGui::IsKeyChordPressed(ImGuiKey_Escape)) {
+  if (help && !elsewhere && !io.WantTextInput && ImGui::IsKeyChordPressed(ImGuiKey_Escape)) {
     context.push(command::ToggleHelp{});
     taken = ImGuiKey_Escape;
   }
@@ -112,7 +120,9 @@ void run_shortcuts(const Context& context, bool dialog, bool help)
     const ImGuiInputFlags flags = action.repeats ? ImGuiInputFlags_Repeat : ImGuiInputFlags_None;
     // Where somebody goes from widget to widget by the keyboard, Space is for the widget that is marked.
     if (io.NavVisible && action.shortcut == ImGuiKey_Space) continue;
-    if (elsewhere || action.shortcut == taken || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
+    // The start page begins in its search: there Ctrl+O still opens. In a preset's fields Ctrl+S would save without what is being typed.
+    const bool types = io.WantTextInput && (context.preset() || !(action.shortcut & ImGuiMod_Ctrl) || !action.enabled(context));
+    if (elsewhere || types || action.shortcut == taken || !ImGui::IsKeyChordPressed(action.shortcut, flags)) continue;
     if (action.enabled(context)) {
       action.run(context);
       taken = action.shortcut;

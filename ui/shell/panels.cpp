@@ -109,6 +109,11 @@ FrontTabs begin_layout(const std::string& name, const std::string& engine, unsig
   ImGui::DockBuilderRemoveNode(dock_space);
   ImGui::DockBuilderAddNode(dock_space, ImGuiDockNodeFlags_DockSpace);
   ImGui::DockBuilderSetNodeSize(dock_space, {width, height});
+  if (width < 40 * ImGui::GetFontSize()) { // too narrow for two docks: all are tabs of one, by default the picture in front
+    for (const PanelEntry& entry : panel_table()) ImGui::DockBuilderDockWindow(entry.title, dock_space);
+    ImGui::DockBuilderFinish(dock_space);
+    return {tab_id(name.empty() ? panel_table().front().title : front.title)};
+  }
   // The tabs are as wide as a plot with its legend needs; the picture has the rest.
   const float tab_width = std::clamp(ImGui::GetFontSize() * 28, 0.3f * width, 0.45f * width);
   ImGuiID at_right = 0, below = 0;

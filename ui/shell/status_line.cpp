@@ -75,8 +75,6 @@ const char* name_of(job::State state)
   return names[static_cast<std::size_t>(state)];
 }
 
-const char* state_word(const RunInHand& run) { return run.compiling() ? "compiling" : name_of(run.status().state); }
-
 std::string duration_text(double seconds)
 {
   const auto whole = std::llround(seconds);
@@ -92,9 +90,10 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   const bool paused = status.state == job::State::paused;
   const float em = ImGui::GetFontSize();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(state_word(context.run));
+  ImGui::TextUnformatted(name_of(status.state));
   ImGui::SameLine(em * 6);
-  ImGui::ProgressBar(static_cast<float>(progress.fraction), {em * 14, 0}, fmt::format("{:.0f} %", 100 * progress.fraction).c_str());
+  ImGui::ProgressBar(static_cast<float>(progress.fraction), {std::min(em * 14, ImGui::GetWindowWidth() / 5), 0},
+                     fmt::format("{:.0f} %", 100 * progress.fraction).c_str());
   ImGui::SameLine();
   if (paused) {
     // The same action under the name that says what it does now.
@@ -107,6 +106,7 @@ void draw_status_line(const Context& context, const std::vector<std::string>& no
   action_button("Start again", context);
   const job::Pace pace = job::pace_between({}, progress);
   std::string text = context.sweep.active() ? "sweep: " + context.sweep.summary() + "    " : "";
+  text += context.run.preparation();
   if (pace.work_per_second > 0) text += job::rate_text(pace, progress.units);
   const double left = pace.seconds_left;
   if (left > 0 && (status.state == job::State::running || paused)) text += "    " + duration_text(left) + " left";

@@ -20,8 +20,6 @@ void draw_note_lines(std::span<const Message> notes, float width);
 
 /// "running", "finished", ...
 const char* name_of(job::State state);
-/// The same of the run in hand, or that its kernels are compiled.
-const char* state_word(const RunInHand& run);
 /// "12 s", "3 min 05 s", "2 h 10 min".
 std::string duration_text(double seconds);
 

@@ -172,8 +172,8 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
   if (++frames_laid_out_ <= settled) {
     bring_to_front(front_tabs_);
     bring_to_front(kept_in_front_);
-    // Whatever had the keyboard: its tab would come to the front. A dialog keeps it.
-    if (workbench.question() == Question::none) ImGui::SetWindowFocus(panel_table().front().title);
+    // Whatever had the keyboard: its tab would come to the front. A dialog keeps it, and the View stays behind where another is before it.
+    if (workbench.question() == Question::none && is_seen(panel_table().front())) ImGui::SetWindowFocus(panel_table().front().title);
   }
   if (frames_since_ < settled) {
     if (++frames_since_ == settled) before_ = layout_now();

@@ -27,12 +27,6 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
   }
 }
 
-/// A flag that is down again at the end of the scope, whatever happens in it.
-struct Lowered {
-  std::atomic<bool>& flag;
-  ~Lowered() { flag = false; }
-};
-
 } // namespace
 
 DeviceRuns::DeviceRuns(compute::DeviceOptions device, LookAround look_around) : options_(std::move(device)), look_around_(look_around)
@@ -42,14 +36,14 @@ DeviceRuns::DeviceRuns(compute::DeviceOptions device, LookAround look_around) : 
 
 DeviceRuns::~DeviceRuns() = default;
 
-NewRun DeviceRuns::make(const preset::Preset& preset)
+NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch)
 {
   if (reread_.exchange(false)) previous_.reset();
-  auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get())); });
-  const Lowered compiling{compiling_};
+  auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get(), watch)); });
+  watch.begin("opening the device");
   if (reopen_.exchange(false)) context_.reset();
   if (!context_) context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
-  compute::tell_of_compiling(*context_, [this] { compiling_ = true; });
+  compute::tell_of_compiling(*context_, [watch] { watch.begin("compiling kernels"); });
   if (watcher_.joinable()) { // the sources are read below: what changed until here is in this run
     const std::lock_guard lock(watching_);
     seen_ = compute::kernel_times(options_.kernels);

@@ -28,10 +28,9 @@ public:
   explicit DeviceRuns(compute::DeviceOptions device, LookAround look_around = nullptr);
   ~DeviceRuns() override;
   /// Reads the scene and builds the job. Throws as run::prepare and compute do.
-  NewRun make(const preset::Preset& preset) override;
+  NewRun make(const preset::Preset& preset, const Watch& watch) override;
   void reread_files() override { reread_ = true; }
   void reopen_device() override { reopen_ = true; }
-  bool compiling() const override { return compiling_; }
   /// True once after a file in the kernels folder changed that the newest run was not built from.
   bool take_changed() override { return changed_.exchange(false); }
 
@@ -42,7 +41,7 @@ private:
   LookAround look_around_;
   std::unique_ptr<compute::Context> context_; ///< opened by the first make(): opening a device takes a while; the worker's thread only
   std::unique_ptr<run::Prepared> previous_;   ///< the worker's thread only
-  std::atomic<bool> compiling_{false}, changed_{false}, reread_{false}, reopen_{false};
+  std::atomic<bool> changed_{false}, reread_{false}, reopen_{false};
   std::mutex watching_;                      ///< held for a look at the folder
   std::optional<compute::KernelTimes> seen_; ///< by the newest run or look, whichever is later; nothing before the first run
   std::condition_variable_any stopping_;

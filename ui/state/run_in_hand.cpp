@@ -4,7 +4,6 @@
 #include "engine/engine.h"
 
 #include <filesystem>
-#include <mutex>
 
 namespace nephroid::ui {
 
@@ -22,10 +21,16 @@ void RunInHand::forget()
   snapshot_origin_ = {};
 }
 
-std::function<std::unique_ptr<job::Job>()> RunInHand::maker() const
+std::function<std::unique_ptr<job::Job>()> RunInHand::maker()
 {
-  return [&source = source_, preset = preset_, arrival = arrival_] {
-    NewRun run = source.make(*preset);
+  if (preparing_.stop_requested()) preparing_ = {};
+  return [this, preset = preset_, arrival = arrival_, stop = preparing_.get_token()] {
+    const auto tell = [this](const std::string& doing) {
+      const std::lock_guard lock(preparation_mutex_);
+      preparation_ = doing;
+    };
+    tell("");
+    NewRun run = source_.make(*preset, {stop, tell});
     std::unique_ptr<job::Job> job = std::move(run.job);
     const std::lock_guard lock(arrival->mutex);
     arrival->run = std::move(run);
@@ -68,12 +73,23 @@ void RunInHand::take_back(const UndoStack* edits)
   if (edits) start(*edits);
 }
 
+/// Whether what the run before has read, or still reads, is of use for the next. Else nobody waits for it.
+bool RunInHand::loads_the_same() const
+{
+  if (!arrival_) return false;
+  const std::lock_guard lock(arrival_->mutex);
+  const preset::Preset& before = *arrival_->preset;
+  return before.source == preset_->source && before.scene.objects == preset_->scene.objects;
+}
+
 /// The run of preset_.
 void RunInHand::begin()
 {
   gesture_lasts_ = kernels_changed_ = shown_since_start_ = false;
   parts_since_.reset();
+  if (!loads_the_same()) preparing_.request_stop();
   arrival_ = std::make_shared<Arrival>();
+  arrival_->preset = preset_;
   before_start_ = worker_.start(maker());
   status_ = worker_.status();
 }
@@ -98,6 +114,13 @@ void RunInHand::cancel()
 {
   restart_wanted_ = false;
   worker_.cancel();
+  preparing_.request_stop();
+}
+
+std::string RunInHand::preparation() const
+{
+  const std::lock_guard lock(preparation_mutex_);
+  return status_.state == job::State::preparing ? preparation_ : std::string();
 }
 
 void RunInHand::take_arrival()

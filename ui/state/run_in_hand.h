@@ -2,6 +2,7 @@
 // The run of the preset that is being edited: started, replaced or told of another light when the preset changes; its newest picture
 // and what came with it. Never waits for a device.
 #pragma once
+#include "base/watch.h"
 #include "compute/compute.h"
 #include "job/worker.h"
 #include "measure/measured_job.h"
@@ -15,6 +16,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,13 +36,11 @@ struct NewRun {
 class RunSource {
 public:
   virtual ~RunSource() = default;
-  /// On the worker's thread only. What it throws is why the run failed.
-  virtual NewRun make(const preset::Preset& preset) = 0;
+  /// On the worker's thread only. What it throws is why the run failed, or interrupted where `watch` asks for it.
+  virtual NewRun make(const preset::Preset& preset, const Watch& watch) = 0;
   /// From any thread, at once: the next make() reads every file anew; and opens the device anew, which a run may have lost.
   virtual void reread_files() {}
   virtual void reopen_device() {}
-  /// From any thread, at once: whether kernels are being compiled.
-  virtual bool compiling() const { return false; }
   /// From any thread, at once: true once after what every run is made of (the kernels) changed.
   virtual bool take_changed() = 0;
 };
@@ -57,6 +57,7 @@ class RunInHand {
 public:
   /// Both outlive it. messages: where a failure is said, and taken back with the next start.
   RunInHand(RunSource& source, Messages& messages) : source_(source), messages_(messages) {}
+  ~RunInHand() { preparing_.request_stop(); }
 
   /// Nothing of earlier runs is shown any more: another preset's picture would be mistaken for this one's.
   void forget();
@@ -86,8 +87,9 @@ public:
   void start_if_wanted(const UndoStack& edits);
 
   const job::Status& status() const { return status_; }
-  /// Whether kernels are being compiled for it.
-  bool compiling() const { return source_.compiling(); }
+  /// What its preparation is at, such as "reading bunny.obj", or that of the run before, which it waits for; empty where it does not
+  /// prepare.
+  std::string preparation() const;
   /// The newest picture there is, also of an earlier run until the present one has shown its first; null before the first of all.
   const std::shared_ptr<const job::Snapshot>& snapshot() const { return snapshot_; }
   /// Whether snapshot() is of the preset as it is now.
@@ -125,8 +127,9 @@ public:
 private:
   struct Arrival;
   /// Makes a run of the preset as it is now, on the worker's thread.
-  std::function<std::unique_ptr<job::Job>()> maker() const;
+  std::function<std::unique_ptr<job::Job>()> maker();
   void take_over(const UndoStack& edits);
+  bool loads_the_same() const;
   void begin();
   bool take_snapshot();
   bool is_worth_showing(const job::Snapshot& newest);
@@ -146,6 +149,9 @@ private:
   std::uint64_t failure_message_ = 0;                                ///< its message's id
   std::shared_ptr<const preset::Preset> preset_;                     ///< of the run in hand
   std::uint64_t adoption_ = 0; ///< of it by the run in hand: Snapshot::adoption of a picture of it is not less
+  mutable std::mutex preparation_mutex_;
+  std::string preparation_;    ///< as the worker's thread tells it
+  std::stop_source preparing_; ///< ends the preparation of the run in hand
   job::Status status_;
   std::shared_ptr<const job::Snapshot> snapshot_, before_start_;
   std::shared_ptr<const job::PixelSpectrum> spectrum_;

@@ -51,12 +51,15 @@ void ViewPanel::draw(const Context& context)
   shown_ = shown_picture(context);
   beside_ = picture_beside(context);
   places_.clear();
-  bars_.begin();
-  bars_.bar([&] { draw_toolbar(context); });
-  bars_.bar([&] { draw_look_bar(context, first_.tone, places_); });
-  bars_.bar([&] { draw_comparison_bar(context, places_); });
-  bars_.bar([&] { draw_selection_bar(context, places_); });
-  draw_metrics(context, places_);
+  // A small panel has the picture alone: the menus have all of the bars' actions.
+  if (ImGui::GetContentRegionAvail().y > 16 * ImGui::GetFontSize()) {
+    bars_.begin();
+    bars_.bar([&] { draw_toolbar(context); });
+    bars_.bar([&] { draw_look_bar(context, first_.tone, places_); });
+    bars_.bar([&] { draw_comparison_bar(context, places_); });
+    bars_.bar([&] { draw_selection_bar(context, places_); });
+    draw_metrics(context, places_);
+  }
   const ImVec2 corner = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   const Canvas area{{corner.x, corner.y}, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)}};
   lay_out(context, area);

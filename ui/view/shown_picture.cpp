@@ -30,7 +30,8 @@ std::string waiting_hint(const Context& context)
   if (context.run.status().state == job::State::failed) return "No picture: see the message below";
   if (context.run.status().state == job::State::cancelled) return "Cancelled before the first picture; start again: F5";
   if (context.run.status().state == job::State::running) return "The first picture is being made";
-  return "Preparing: reading the scene, building the kernels";
+  const std::string doing = context.run.preparation();
+  return doing.empty() ? "Preparing" : "Preparing: " + doing;
 }
 
 /// The newest map, where it is of the metric and the pictures that are compared now.
