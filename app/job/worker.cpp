@@ -19,8 +19,10 @@ using Clock = std::chrono::steady_clock;
 /// Longer than a frame of the window.
 constexpr std::chrono::milliseconds adoption_linger{25};
 
-/// After a snapshot the job works at least so many times as long as that took: large pictures may take longer than the interval.
+/// After a snapshot the job works at least so many times as long as that took: large pictures may take longer than the interval. In a
+/// job's first second each picture is much better than the one before: then it works half as long, and no longer than half its age.
 constexpr int work_a_snapshot = 4;
+constexpr std::chrono::seconds youth{1};
 
 bool is_over(State state)
 {
@@ -208,9 +210,17 @@ struct Worker::Impl {
     }
   }
 
+  /// Between a snapshot and the next of a job that has worked for so long, with the mutex held.
+  Clock::duration pause_after_snapshot(Clock::duration age) const
+  {
+    if (age < youth) return std::max(std::min<Clock::duration>(interval, age / 2), work_a_snapshot / 2 * snapshot_took);
+    return std::max<Clock::duration>(interval, work_a_snapshot * snapshot_took);
+  }
+
   /// Steps the job until it is finished, has to stop or could not adopt; its last state is shown either way. Returns the state then.
   State advance(std::uint64_t generation, Job& job)
   {
+    const Clock::time_point began = Clock::now();
     std::optional<Clock::time_point> shown, adopted_at;
     while (true) {
       const Move move = job.finished() ? last_move() : next_move(generation, std::exchange(adopted_at, std::nullopt));
@@ -225,12 +235,12 @@ struct Worker::Impl {
         continue;
       }
       job.step();
-      Clock::duration wait = Clock::duration::max(); // nobody waits for the picture of a job that was replaced
+      Clock::time_point due = Clock::time_point::max(); // nobody waits for the picture of a job that was replaced
       update(generation, [&, progress = job.progress()] {
         status.progress = progress;
-        wait = shown ? std::max<Clock::duration>(interval, work_a_snapshot * snapshot_took) : Clock::duration{};
+        due = shown ? *shown + pause_after_snapshot(Clock::now() - began) : Clock::time_point::min();
       });
-      if (wait == Clock::duration{} || (shown && Clock::now() - *shown >= wait)) {
+      if (Clock::now() >= due) {
         publish(generation, job);
         shown = Clock::now();
       }

@@ -47,7 +47,7 @@ public:
   /// The newest one of the pixel that is watched; null where there is none.
   std::shared_ptr<const PixelSpectrum> spectrum() const;
   /// How often snapshots are made while running (default 100 ms; the first after the first step). Where snapshots would take more than a
-  /// fifth of the time, they are made less often.
+  /// fifth of the time, they are made less often. In a job's first second they come more often, after a third of the time if need be.
   void set_snapshot_interval(std::chrono::milliseconds interval);
   /// Blocks until the job is finished, cancelled or failed; for tests.
   void wait();

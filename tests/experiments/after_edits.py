@@ -6,7 +6,7 @@
 
 BENCH is build/release/tests/bench/nephroid_after_edit, OLD_BENCH that of another version to compare with; it says what it does. PROGRAM
 renders the truths into OUT/truth once: so many passes without smoothing. Each scene is measured after its camera was moved, first-light
-after each edit. Of every edit the time to the first picture is taken, median and most of nine. Tables go to OUT/tables.md,
+after each edit. Of every edit the time to the first picture is taken, median and most of five. Tables go to OUT/tables.md,
 pictures of first-light to OUT/strip-EDIT.png, a row for each program. Nothing else should run on the machine.
 """
 import csv
@@ -35,7 +35,7 @@ SCENES = {
 TABLE_TIMES = ["0.1", "0.25", "0.5", "1", "3", "10", "30"]
 STRIP_TIMES = ["00.10", "00.25", "00.50", "01.00", "03.00"]
 SECONDS = 30  # after an edit
-EDITS = 9     # whose first pictures are waited for
+EDITS = 5     # whose first pictures are waited for
 
 
 def edits_of(scene):
