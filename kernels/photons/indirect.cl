@@ -45,8 +45,8 @@ static inline bool show(const World* world, const Receiver* receiver, const Phot
   return film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither);
 }
 
-// Follows a photon to its end: OUTCOME_*. *refused counts what the film refused.
-static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint pass, uint number, long* refused)
+// Follows a photon to its end: OUTCOME_*. What the film refuses is counted.
+static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint pass, uint number, Outcomes outcomes)
 {
   Path* path = &photon->path;
   bool met_diffuse = false;
@@ -58,7 +58,7 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     lose_in_medium(world, path, hit.t);
     const float4 random = random4(seed, pass, number, 2u + (uint)surface_number, STREAM_INDIRECT);
     if (material.type == MATERIAL_DIFFUSE) {
-      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w)) ++*refused;
+      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w)) add_outcome(outcomes, OUTCOME_REFUSED, 1);
       met_diffuse = true;
       photon->shading *= shading_ratio(&surface, path->direction);
       if (random.x >= world->tables.reflectance[material.reflector * WAVELENGTH_COUNT + photon->band.wavelength]) return OUTCOME_ABSORBED;
@@ -86,7 +86,7 @@ __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything,
   const World world = WORLD;
   const int members = cluster_first[scene.cluster_count];
   const Receiver receiver = {film_of_pass(film, pass, camera.width * camera.height), film_scale, camera};
-  long outcomes[OUTCOME_COUNT] = {0};
+  OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint item = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (item >= count) break;
@@ -103,7 +103,7 @@ __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything,
                      source,
                      emission.watts / (float)emitter.photon_count,
                      1.0f};
-    const int outcome = follow_photon(&world, &receiver, &photon, seed, pass, number, outcomes + OUTCOME_REFUSED);
+    const int outcome = follow_photon(&world, &receiver, &photon, seed, pass, number, outcomes);
     count_photon(outcomes, outcome, photon.watts * band_share(&world, photon.source, &photon.band, 0.0f) * energy_scale,
                  wavelength_left(&world.tables, &photon.path.losses, photon.band.wavelength));
   }

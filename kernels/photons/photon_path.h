@@ -5,8 +5,8 @@
 #define NEPHROID_PHOTON_PATH_H
 
 #include "kernels/tracing/emission.h"
-#include "kernels/tracing/film.h"
 #include "kernels/tracing/low_discrepancy.h"
+#include "kernels/tracing/outcomes.h"
 #include "kernels/tracing/world.h"
 
 // Photons that one work item follows.
@@ -15,18 +15,12 @@
 #endif
 
 // Counts a photon that had so many quanta of power, of which `left` (0..1) came to its end: OUTCOME_*.
-static inline void count_photon(long* outcomes, int outcome, float power, float left)
+static inline void count_photon(Outcomes outcomes, int outcome, float power, float left)
 {
   const long quanta = convert_long_rte(power), rest = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
-  outcomes[OUTCOME_EMITTED] += quanta;
-  outcomes[outcome] += rest;
-  outcomes[OUTCOME_ABSORBED] += quanta - rest;
-}
-
-static inline void add_outcomes(volatile __global long* energy, const long* outcomes)
-{
-  for (int i = 0; i < OUTCOME_COUNT; ++i)
-    if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);
+  add_outcome(outcomes, OUTCOME_EMITTED, quanta);
+  add_outcome(outcomes, outcome, rest);
+  add_outcome(outcomes, OUTCOME_ABSORBED, quanta - rest);
 }
 
 // The last emitter that begins at this photon or before it, by bisection.

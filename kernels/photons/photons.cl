@@ -65,7 +65,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
                       uint stride, uint count, float film_scale, float energy_scale, float stored_scale)
 {
   const World world = WORLD;
-  long outcomes[OUTCOME_COUNT] = {0};
+  OUTCOMES(outcomes);
   film = film_of_pass(film, pass, camera.width * camera.height);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
@@ -101,7 +101,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
       const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
       if (!store_photon(stored + stored_first + photon, &end.surface, path.direction, band_number(emitter.cluster, part), object_count, xyz, stored_scale,
                         start.emission.w))
-        ++outcomes[OUTCOME_REFUSED];
+        add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
 #endif
     if (NEPHROID_SPLAT && end.outcome == OUTCOME_DEPOSITED) {
@@ -113,7 +113,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
         if (splat.pixel < 0) continue;
         const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);
         const float dither = start.emission.w + 0.61803399f * (float)i; // every strand's own
-        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, dither - floor(dither))) ++outcomes[OUTCOME_REFUSED];
+        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, dither - floor(dither))) add_outcome(outcomes, OUTCOME_REFUSED, 1);
 #if NEPHROID_MOMENTS
         moment += squared(xyz, film_scale);
 #endif

@@ -25,6 +25,9 @@
 
 static inline uint4 philox4x32(uint4 counter, uint2 key)
 {
+#ifdef NEPHROID_GPU // unrolled, the ten keys would be made once for all, and held in registers wherever a path goes
+#pragma unroll 1
+#endif
   for (int round = 0; round < 10; ++round) {
     const ulong a = (ulong)counter.x * 0xD2511F53u;
     const ulong b = (ulong)counter.z * 0xCD9E8D57u;
