@@ -5,8 +5,8 @@
 #include "kernels/tracing/eye_path.h"
 
 // XYZ radiance that a diffuse surface sends back along the path.
-static inline float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector, const Band* band,
-                           __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
+IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector, const Band* band,
+                      __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
 {
   float3 xyz = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {

@@ -74,8 +74,8 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
 
 // Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels. *beside: set where
 // that is in another triangle.
-static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float x,
-                               float2* film_place, bool* beside)
+IN_PLACE bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float x,
+                          float2* film_place, bool* beside)
 {
   float3 place;
   if (!stretched_place(path, &end->surface, x, &place)) return false;

@@ -48,6 +48,9 @@ typedef struct {
         {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size}, reflector_count, scene \
   }
 
+// For what takes a World and is large: called as a function of its own it would need the World in memory, which kernels have as arguments.
+#define IN_PLACE static inline __attribute__((always_inline))
+
 typedef struct {
   float3 origin, direction;
   uint skip;   // the triangle that the path leaves
@@ -191,7 +194,7 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
 
 // What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a reflector sends
 // back of it (-1: a white one).
-static inline float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
+IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
 {
   if (is_of_environment(world, source.light))
     return source.rgb.x * carried_row(world, losses, source.light, band, reflector) +
