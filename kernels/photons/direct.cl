@@ -30,8 +30,8 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
 }
 
 // Takes a path that has hit `first` on through glass and mirrors in one band. Returns XYZ radiance of that band's light alone.
-static inline float3 follow(const World* world, Path path, Hit first, const Band* band, __global const float4* reflected_xyz_all, uint2 seed,
-                            uint sample, uint pixel)
+IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band, __global const float4* reflected_xyz_all, uint2 seed,
+                       uint sample, uint pixel)
 {
   Surface surface;
   const float radiance_scale = reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel, STREAM_CAMERA, &surface);

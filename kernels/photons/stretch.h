@@ -74,8 +74,8 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
 
 // Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels. *beside: set where
 // that is in another triangle.
-IN_PLACE bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float x,
-                          float2* film_place, bool* beside)
+static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float x,
+                               float2* film_place, bool* beside)
 {
   float3 place;
   if (!stretched_place(path, &end->surface, x, &place)) return false;
@@ -93,9 +93,11 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
                                 float high, Stretch* stretch)
 {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
-  float2 first, last;
-  if (!stretch_end(world, camera, end, path, low, &first, &stretch->beside)) return false;
-  if (!stretch_end(world, camera, end, path, high, &last, &stretch->beside)) return false;
+  float2 first, last = (float2)(0.0f);
+  for (int i = 0; i < 2; ++i) { // a loop, for one copy of the code
+    first = last;
+    if (!stretch_end(world, camera, end, path, i == 0 ? low : high, &last, &stretch->beside)) return false;
+  }
   const float pixels = distance(first, last);
   if (!(pixels < STRETCH_SHORTEST)) stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
   return true;
@@ -108,13 +110,10 @@ static inline Stretch stretch_of(const World* world, const DeviceCamera* camera,
 {
 #if NEPHROID_DIFFERENTIALS
   const float origin = stretch_origin(world, band);
-  const float4 span = world->stretch_span[band->cluster];
-  Stretch whole = {1, true, false};
-  if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, &whole)) return whole;
-  if (band->wavelength >= 0) {
-    const float4 place = world->stretch_place[band->wavelength];
-    Stretch own = {1, false, false};
-    if (stretch_over(world, camera, end, path, place.y - origin, place.z - origin, &own)) return own;
+  for (int i = 0; i < (band->wavelength >= 0 ? 2 : 1); ++i) {
+    const float4 span = i == 0 ? world->stretch_span[band->cluster] : world->stretch_place[band->wavelength];
+    Stretch stretch = {1, i == 0, false};
+    if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, &stretch)) return stretch;
   }
 #endif
   const Stretch point = {1, false, false};

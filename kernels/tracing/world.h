@@ -51,6 +51,14 @@ typedef struct {
 // For what takes a World and is large: called as a function of its own it would need the World in memory, which kernels have as arguments.
 #define IN_PLACE static inline __attribute__((always_inline))
 
+// What a path does not need until it has found its next hit. On a GPU it waits in memory: registers are few there, and compilers fill more
+// of them with what they can make of such numbers beforehand, as addresses in tables.
+#ifdef NEPHROID_GPU
+#define SET_ASIDE volatile
+#else
+#define SET_ASIDE
+#endif
+
 typedef struct {
   float3 origin, direction;
   uint skip;   // the triangle that the path leaves
