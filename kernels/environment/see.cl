@@ -103,7 +103,7 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   const uint pixel = (uint)(row * camera.width + column);
   const bool coarse = block > 1;
   const float2 jitter = coarse ? (float2)(0.5f * (float)block) : random4(seed, pass, pixel, 0u, STREAM_SEE).xy;
-  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);
   const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
                     material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;

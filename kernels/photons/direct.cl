@@ -53,7 +53,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
   const uint pixel = samples[index].x, frame = samples[index].y;
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   const float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_CAMERA);
-  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
   const Hit hit = next_hit(&world, &path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 

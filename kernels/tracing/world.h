@@ -68,10 +68,14 @@ typedef struct {
   Differential differential;
 } Path;
 
-static inline Hit next_hit(const World* world, const Path* path)
+static inline Hit next_hit(const World* world, Path* path)
 {
-  return closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction, -path->behind,
-                     INFINITY, path->skip);
+  SET_ASIDE ulong latest = path->media.latest, earlier = path->media.earlier;
+  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction,
+                              -path->behind, INFINITY, path->skip);
+  path->media.latest = latest;
+  path->media.earlier = earlier;
+  return hit;
 }
 
 static inline bool is_blocked(const World* world, float3 from, float3 direction, float distance, uint skip)
