@@ -105,7 +105,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
     bool met = false;
     int outcome = OUTCOME_LOST;
-    float4 choices = (float4)(0.0f);
+    SET_ASIDE float4 choices = (float4)(0.0f);
     for (int surface_number = 0; surface_number <= scene.max_surfaces; ++surface_number) {
       const Hit hit = next_hit(&world, &path);
       const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;

@@ -103,16 +103,17 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   const uint pixel = (uint)(row * camera.width + column);
   const bool coarse = block > 1;
   const float2 jitter = coarse ? (float2)(0.5f * (float)block) : random4(seed, pass, pixel, 0u, STREAM_SEE).xy;
-  Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
   const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
                     material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
-  const float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
+  SET_ASIDE float3 outwards = path.direction;
+  SET_ASIDE float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
   for (int i = 0; i < ENDS_OF_PIXEL; ++i) {
     // All colours are reflected alike, nearly as much, so one of them is followed: the last end is its.
     const int channel = i < ENDS_OF_PIXEL - 1 ? i : (ENDS_OF_PIXEL - 1) / 2;
     Band band = whole_cluster(0);
-    Path way = path;
+    Path way = path_from_eye(&camera, outwards);
     float3 weight = (float3)(1.0f);
     bool goes_on = i == 0;
     if (bent) {

@@ -47,7 +47,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   const uint pixel = samples[index].x, frame = samples[index].y;
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   const float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
-  Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
   const Hit hit = next_hit(&world, &path);
 
   float3 xyz = (float3)(0.0f);

@@ -91,14 +91,15 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float3 normal = side * surface->shading, from = start_on_side(surface, side);
-  const float4 random = sky_numbers(&light, seed, sample, paths, pixel);
-  float3 sum = (float3)(0.0f);
+  SET_ASIDE float4 random = sky_numbers(&light, seed, sample, paths, pixel);
+  SET_ASIDE float3 sum = (float3)(0.0f);
   for (int i = 0; i < 2; ++i) {
     const SkyPlace place = i == 0 ? sample_sky(&world->sky, random.xy) : sky_in(&world->sky, cosine_direction(normal, random.z, random.w));
     const float cosine = dot(place.direction, normal);
     if (!(cosine > 0.0f) || !(place.density > 0.0f) || !(side * dot(place.direction, surface->geometric) > 0.0f)) continue;
-    if (is_blocked(world, from, place.direction, INFINITY, triangle)) continue;
-    sum += place.rgb * (place.density * cosine / (place.density + cosine / PI_F));
+    SET_ASIDE float3 rgb = place.rgb;
+    SET_ASIDE float weight = place.density * cosine / (place.density + cosine / PI_F);
+    if (!is_blocked(world, from, place.direction, INFINITY, triangle)) sum += rgb * weight;
   }
   return light.radiometric * sum;
 }
@@ -118,7 +119,7 @@ IN_PLACE float reach_end(const World* world, Path* path, Hit* hit, bool known, c
                          uint pixel, uint stream, bool likelier, Surface* surface)
 {
   float radiance_scale = 1.0f;
-  float4 choices = (float4)(0.0f);
+  SET_ASIDE float4 choices = (float4)(0.0f);
   for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
     if (surface_number > 0 || !known) *hit = next_hit(world, path);
     if (hit->primitive == NEPHROID_NO_PRIMITIVE) return radiance_scale;

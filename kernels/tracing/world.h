@@ -68,6 +68,12 @@ typedef struct {
   Differential differential;
 } Path;
 
+static inline Path path_from_eye(const DeviceCamera* camera, float3 direction)
+{
+  const Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, no_losses(), 0.0f};
+  return path;
+}
+
 static inline Hit next_hit(const World* world, Path* path)
 {
   SET_ASIDE ulong latest = path->media.latest, earlier = path->media.earlier;
@@ -192,9 +198,10 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
 {
 #if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
   if (band->wavelength >= 0) {
-    const float left = wavelength_left(&world->tables, losses, band->wavelength) * band->weight;
-    const float reflectance = reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + band->wavelength];
-    const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength];
+    const int wavelength = anew(band->wavelength);
+    const float left = wavelength_left(&world->tables, losses, wavelength) * band->weight;
+    const float reflectance = reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + wavelength];
+    const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + wavelength];
     return left * (float4)(reflectance * light_xyz.xyz, light_xyz.w);
   }
 #endif
