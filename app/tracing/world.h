@@ -50,9 +50,9 @@ struct World {
     return compute::zeroed<std::int64_t>(context, name, count);
   }
 
-  /// Runs a kernel that has WORLD_ARGUMENTS (kernels/tracing/world.h) beside its `own`, and waits for it.
-  void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
-           std::initializer_list<compute::Argument> more = {})
+  /// Queues a kernel that has WORLD_ARGUMENTS (kernels/tracing/world.h) beside its `own`.
+  void queue(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
+             std::initializer_list<compute::Argument> more = {})
   {
     const SceneBuffers& b = buffers;
     std::vector<compute::Argument> arguments{{"nodes", b.nodes},
@@ -80,6 +80,14 @@ struct World {
                                              {"scene", scene}};
     arguments.insert(arguments.end(), more);
     kernel.run(global, local, arguments, own);
+  }
+
+  /// The same, and waits for it: a launch is a step of some 50 ms, whose time says how large the next one is (step_size.h). Beside that, waiting
+  /// is less than a thousandth.
+  void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
+           std::initializer_list<compute::Argument> more = {})
+  {
+    queue(kernel, global, local, own, more);
     context.finish();
   }
 

@@ -3,8 +3,8 @@
 // its middle that they cross afterwards, outside of it. Light that never met the object marks nothing: it is no caustic.
 #include "kernels/environment/sphere_map.h"
 #include "kernels/tracing/emission.h"
-#include "kernels/tracing/film.h"
 #include "kernels/tracing/low_discrepancy.h"
+#include "kernels/tracing/outcomes.h"
 #include "kernels/tracing/world.h"
 
 #ifndef NEPHROID_PHOTONS_PER_ITEM
@@ -93,7 +93,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
   const Spheres spheres = {film, radii, sphere_count, side};
   DeviceLight light = lights[0];
   light.direction = direction;
-  long outcomes[OUTCOME_COUNT] = {0};
+  OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint item = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (item >= count) break;
@@ -105,7 +105,7 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
     bool met = false;
     int outcome = OUTCOME_LOST;
-    float4 choices = (float4)(0.0f);
+    SET_ASIDE float4 choices = (float4)(0.0f);
     for (int surface_number = 0; surface_number <= scene.max_surfaces; ++surface_number) {
       const Hit hit = next_hit(&world, &path);
       const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
@@ -129,10 +129,9 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
       choices = choices.yzwx;
     }
     const long quanta = convert_long_rte(power), left = convert_long_rte(power * left_of(&world, &path, &band));
-    outcomes[OUTCOME_EMITTED] += quanta;
-    outcomes[outcome] += left;
-    outcomes[OUTCOME_ABSORBED] += quanta - left;
+    add_outcome(outcomes, OUTCOME_EMITTED, quanta);
+    add_outcome(outcomes, outcome, left);
+    add_outcome(outcomes, OUTCOME_ABSORBED, quanta - left);
   }
-  for (int i = 0; i < OUTCOME_COUNT; ++i)
-    if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);
+  add_outcomes(energy, outcomes);
 }

@@ -13,13 +13,14 @@ static inline DeviceEnd nowhere(void)
   return end;
 }
 
-// Where a path that has met `hit` ends. weight: linear sRGB. likelier: of reflection and refraction on its way.
-static inline DeviceEnd end_of(const World* world, Path path, Hit hit, const Band* band, float3 weight, uint2 seed, uint sample, uint pixel,
-                               bool likelier)
+// Where a path ends. first: what it meets next, where that is known. weight: linear sRGB. likelier: of reflection and refraction on its way.
+static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band, float3 weight, uint2 seed,
+                               uint sample, uint pixel, bool likelier)
 {
   DeviceEnd end = nowhere();
   Surface surface;
-  const float scale = reach_end(world, &path, &hit, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
+  Hit hit = *first;
+  const float scale = reach_end(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
   if (scale == 0.0f) return end;
   const float3 throughput = scale * wavelength_left(&world->tables, &path.losses, max(band->wavelength, 0)) * weight;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
@@ -64,6 +65,30 @@ static inline Band band_of_channel(__global const float* channel_cdf, int channe
 #endif
 }
 
+// Takes a path from the eye on from the glass or mirror that it meets first, where it is reflected or goes through. weight: linear sRGB of the
+// channel. False where there is no such way.
+static inline bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, int channel, bool reflected, float3* weight)
+{
+  const Surface surface = surface_at(&world->geometry, *hit);
+  const DeviceMaterial material = material_of(world, surface.object);
+  lose_in_medium(world, path, hit->t);
+  const float3 direction = path->direction;
+  Path other = *path;
+  float n_through = 1.0f, n_reflected = 1.0f;
+  const bool goes_on = bend_path(world, path, hit->primitive, &surface, &material, band, 1.0f, &n_through);
+  const bool reflects = bend_path(world, &other, hit->primitive, &surface, &material, band, 0.0f, &n_reflected);
+  // A mirror, total reflection and glass that does not bend have one way on.
+  const bool two_ways = dot(path->direction, surface.geometric) * dot(other.direction, surface.geometric) < 0.0f;
+  const float share = two_ways ? reflected_share(direction, other.direction, n_through) : 0.0f;
+  if (reflected) {
+    *path = other;
+    *weight = share * (float3)(1.0f);
+    return two_ways && reflects;
+  }
+  *weight = (1.0f - share) * n_through * n_through * (ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2));
+  return goes_on;
+}
+
 // Paths for each square of block x block pixels, first .. first + count - 1 counted row after row; ends: ENDS_OF_PIXEL for each. A pixel
 // that first sees glass follows both what it reflects and what it lets through; that in three colours where glass parts them. In
 // a coarse picture, of larger squares, paths take the likelier way at the surfaces after that: one that did not would stand out as a square.
@@ -78,42 +103,26 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
   const uint pixel = (uint)(row * camera.width + column);
   const bool coarse = block > 1;
   const float2 jitter = coarse ? (float2)(0.5f * (float)block) : random4(seed, pass, pixel, 0u, STREAM_SEE).xy;
-  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
   const bool bent = hit.primitive != NEPHROID_NO_PRIMITIVE &&
                     material_of(&world, object_of_primitive(&world.geometry, hit.primitive)).type != MATERIAL_DIFFUSE;
-  __global DeviceEnd* own = ends + ENDS_OF_PIXEL * item;
-  for (int i = 0; i < ENDS_OF_PIXEL; ++i) own[i] = nowhere();
-  if (!bent) {
-    const Band all = whole_cluster(0);
-    own[0] = end_of(&world, path, hit, &all, (float3)(1.0f), seed, ENDS_OF_PIXEL * pass, pixel, coarse);
-  } else {
-    const float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
-    const Surface surface = surface_at(&world.geometry, hit);
-    const DeviceMaterial material = material_of(&world, surface.object);
-    for (int c = 0; c < ENDS_OF_PIXEL - 1; ++c) {
-      const Band band = band_of_channel(channel_cdf, c, u);
-      const float3 channel = ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(c == 0, c == 1, c == 2);
-      Path through = path;
-      lose_in_medium(&world, &through, hit.t);
-      Path reflected = through;
-      float n_through = 1.0f, n_reflected = 1.0f;
-      const bool goes_on = bend_path(&world, &through, hit.primitive, &surface, &material, &band, 1.0f, &n_through);
-      const bool reflects = bend_path(&world, &reflected, hit.primitive, &surface, &material, &band, 0.0f, &n_reflected);
-      // A mirror, total reflection and glass that does not bend have one way on.
-      const bool two_ways = dot(through.direction, surface.geometric) * dot(reflected.direction, surface.geometric) < 0.0f;
-      const float share = two_ways ? reflected_share(path.direction, reflected.direction, n_through) : 0.0f;
-      if (goes_on)
-        own[c] = end_of(&world, through, next_hit(&world, &through), &band, (1.0f - share) * n_through * n_through * channel, seed,
-                        ENDS_OF_PIXEL * pass + (uint)c, pixel, coarse);
-      // All colours are reflected alike, nearly as much, so one of them is followed.
-      if (two_ways && reflects && c == (ENDS_OF_PIXEL - 1) / 2)
-        own[ENDS_OF_PIXEL - 1] = end_of(&world, reflected, next_hit(&world, &reflected), &band, share * (float3)(1.0f), seed,
-                                        ENDS_OF_PIXEL * pass + ENDS_OF_PIXEL - 1, pixel, coarse);
-    }
-  }
+  SET_ASIDE float3 outwards = path.direction;
+  SET_ASIDE float u = coarse ? 0.5f : golden_place(seed, pass, 0u, 1u, pixel, STREAM_SEE_WAVELENGTH);
   for (int i = 0; i < ENDS_OF_PIXEL; ++i) {
-    const DeviceEnd end = own[i];
+    // All colours are reflected alike, nearly as much, so one of them is followed: the last end is its.
+    const int channel = i < ENDS_OF_PIXEL - 1 ? i : (ENDS_OF_PIXEL - 1) / 2;
+    Band band = whole_cluster(0);
+    Path way = path_from_eye(&camera, outwards);
+    float3 weight = (float3)(1.0f);
+    bool goes_on = i == 0;
+    if (bent) {
+      band = band_of_channel(channel_cdf, channel, u);
+      goes_on = first_bend(&world, &way, &hit, &band, channel, i == ENDS_OF_PIXEL - 1, &weight);
+    }
+    DeviceEnd end = nowhere();
+    if (goes_on) end = end_of(&world, way, &hit, !bent, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse);
+    ends[ENDS_OF_PIXEL * item + i] = end;
     want(&end, middle, size, states);
   }
 }

@@ -33,7 +33,7 @@ __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const 
   const uint pixel = (uint)(row * camera.width + column);
   const float4 random = random4(seed, pass, pixel, 0u, STREAM_SEE);
   const float2 jitter = block > 1 ? (float2)(0.5f * (float)block) : random.xy;
-  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter));
   const Hit hit = next_hit(&world, &path);
 
   // Where the path is within the largest sphere.

@@ -28,7 +28,7 @@ static inline float3 seen_through(const World* world, const Background* backgrou
                                   uint pixel)
 {
   Surface surface;
-  const float radiance_scale = reach_end(world, &path, &hit, band, seed, sample, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND, false, &surface);
+  const float radiance_scale = reach_end(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND, false, &surface);
   if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
   return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses, band);
 }
@@ -47,7 +47,7 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
   const uint pixel = samples[index].x, frame = samples[index].y;
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   const float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_BACKGROUND);
-  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
   const Hit hit = next_hit(&world, &path);
 
   float3 xyz = (float3)(0.0f);

@@ -5,10 +5,10 @@
 #include "kernels/tracing/eye_path.h"
 
 // XYZ radiance that a diffuse surface sends back along the path.
-static inline float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector, const Band* band,
-                           __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
+IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector, const Band* band,
+                      __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
 {
-  float3 xyz = (float3)(0.0f);
+  SET_ASIDE float3 xyz = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
     if (is_of_environment(world, l)) {
       const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel);
@@ -30,8 +30,8 @@ static inline float3 shade(const World* world, const Path* path, const Surface* 
 }
 
 // Takes a path that has hit `first` on through glass and mirrors in one band. Returns XYZ radiance of that band's light alone.
-static inline float3 follow(const World* world, Path path, Hit first, const Band* band, __global const float4* reflected_xyz_all, uint2 seed,
-                            uint sample, uint pixel)
+IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band, __global const float4* reflected_xyz_all, uint2 seed,
+                       uint sample, uint pixel)
 {
   Surface surface;
   const float radiance_scale = reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel, STREAM_CAMERA, &surface);
@@ -50,27 +50,30 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
-  const uint pixel = samples[index].x, frame = samples[index].y;
+  const uint pixel = samples[index].x;
+  SET_ASIDE uint frame = samples[index].y;
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
-  const float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_CAMERA);
-  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  SET_ASIDE float4 jitter = eye_numbers(seed, frame, 1u, pixel, 0u, STREAM_CAMERA);
+  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
   const Hit hit = next_hit(&world, &path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
   // One call of follow() for both cases: half the code, and Intel's vectoriser gets two of them wrong (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
   const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
-  float3 xyz = (float3)(0.0f);
+  SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;
+  SET_ASIDE Hit first = hit;
   for (uint i = 0; i < paths; ++i) {
+    const Path way = path_from_eye(&camera, outwards);
     const uint sample = frame * paths + i;
     Band band = whole_cluster(-1);
-    float probability = 1.0f;
+    SET_ASIDE float probability = 1.0f;
     if (!unbent) {
       const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, paths, pixel, STREAM_CAMERA_CLUSTER);
       probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)paths;
       band = choose_band(&world, scene.light_count, cluster, random4(seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
     }
-    xyz += follow(&world, path, hit, &band, reflected_xyz_all, seed, sample, pixel) / probability;
+    xyz += follow(&world, way, first, &band, reflected_xyz_all, seed, sample, pixel) / probability;
   }
   const float limit = limit_of_sample(frame, enough, film_limit);
   if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit, jitter.z))

@@ -28,11 +28,25 @@ typedef struct {
 // A photon on its way.
 typedef struct {
   Path path;
-  Band band;
-  Source source;
-  float watts;   // as if the band had all of the light's power
-  float shading; // product of shading_ratio over the diffuse surfaces that it has left
+  SET_ASIDE float shading;  // product of shading_ratio over the diffuse surfaces that it has left
+  SET_ASIDE float watts;    // as if the band had all of the light's power
+  SET_ASIDE int wavelength; // of its band, as is the weight
+  SET_ASIDE float weight;
+  SET_ASIDE int light;      // of its source, as is rgb
+  SET_ASIDE float3 rgb;
 } Photon;
+
+static inline Band band_of(const Photon* photon)
+{
+  const Band band = {0, photon->wavelength, photon->weight};
+  return band;
+}
+
+static inline Source light_of(const Photon* photon)
+{
+  const Source source = {photon->light, photon->rgb};
+  return source;
+}
 
 // Adds what a diffuse surface reflects of a photon to the pixel that sees it. False where the film refused it.
 static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface, uint triangle,
@@ -40,13 +54,14 @@ static inline bool show(const World* world, const Receiver* receiver, const Phot
 {
   const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
   if (splat.pixel < 0) return true;
-  const float3 xyz = carried_light(world, &photon->path.losses, photon->source, &photon->band, reflector).xyz;
+  const Band band = band_of(photon);
+  const float3 xyz = carried_light(world, &photon->path.losses, light_of(photon), &band, reflector).xyz;
   const float scale = photon->watts * photon->shading * splat.weight / PI_F;
   return film_add_dithered(receiver->film, splat.pixel, xyz * scale, receiver->scale, FILM_LIMIT, dither);
 }
 
-// Follows a photon to its end: OUTCOME_*. *refused counts what the film refused.
-static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint pass, uint number, long* refused)
+// Follows a photon to its end: OUTCOME_*. What the film refuses is counted.
+static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint pass, uint number, Outcomes outcomes)
 {
   Path* path = &photon->path;
   bool met_diffuse = false;
@@ -57,11 +72,12 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     const DeviceMaterial material = material_of(world, surface.object);
     lose_in_medium(world, path, hit.t);
     const float4 random = random4(seed, pass, number, 2u + (uint)surface_number, STREAM_INDIRECT);
+    const Band band = band_of(photon);
     if (material.type == MATERIAL_DIFFUSE) {
-      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w)) ++*refused;
+      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w)) add_outcome(outcomes, OUTCOME_REFUSED, 1);
       met_diffuse = true;
       photon->shading *= shading_ratio(&surface, path->direction);
-      if (random.x >= world->tables.reflectance[material.reflector * WAVELENGTH_COUNT + photon->band.wavelength]) return OUTCOME_ABSORBED;
+      if (random.x >= world->tables.reflectance[material.reflector * WAVELENGTH_COUNT + band.wavelength]) return OUTCOME_ABSORBED;
       const float side = dot(path->direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
       path->direction = cosine_direction(side * surface.geometric, random.y, random.z);
       path->origin = start_on_side(&surface, side);
@@ -70,7 +86,7 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     }
     if (surface_number == world->scene.max_surfaces) return OUTCOME_LOST;
     float n_ratio;
-    if (material.type != MATERIAL_DIFFUSE && !bend_path(world, path, hit.primitive, &surface, &material, &photon->band, random.x, &n_ratio))
+    if (material.type != MATERIAL_DIFFUSE && !bend_path(world, path, hit.primitive, &surface, &material, &band, random.x, &n_ratio))
       return OUTCOME_LOST;
   }
 }
@@ -86,7 +102,7 @@ __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything,
   const World world = WORLD;
   const int members = cluster_first[scene.cluster_count];
   const Receiver receiver = {film_of_pass(film, pass, camera.width * camera.height), film_scale, camera};
-  long outcomes[OUTCOME_COUNT] = {0};
+  OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint item = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (item >= count) break;
@@ -98,14 +114,18 @@ __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything,
     const Source source = source_of(&world, emitter.light, place, &light);
     const Emission emission = emit_everywhere(light, everything, &scene, random, place);
     if (emission.watts == 0.0f) continue;
+    const Band band = wavelength_of_cluster(0, cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w);
     Photon photon = {{emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind},
-                     wavelength_of_cluster(0, cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w),
-                     source,
+                     1.0f,
                      emission.watts / (float)emitter.photon_count,
-                     1.0f};
-    const int outcome = follow_photon(&world, &receiver, &photon, seed, pass, number, outcomes + OUTCOME_REFUSED);
-    count_photon(outcomes, outcome, photon.watts * band_share(&world, photon.source, &photon.band, 0.0f) * energy_scale,
-                 wavelength_left(&world.tables, &photon.path.losses, photon.band.wavelength));
+                     band.wavelength,
+                     band.weight,
+                     source.light,
+                     source.rgb};
+    const int outcome = follow_photon(&world, &receiver, &photon, seed, pass, number, outcomes);
+    const Band end = band_of(&photon);
+    count_photon(outcomes, outcome, photon.watts * band_share(&world, light_of(&photon), &end, 0.0f) * energy_scale,
+                 wavelength_left(&world.tables, &photon.path.losses, photon.wavelength));
   }
   add_outcomes(energy, outcomes);
 }

@@ -5,8 +5,8 @@
 #define NEPHROID_PHOTON_PATH_H
 
 #include "kernels/tracing/emission.h"
-#include "kernels/tracing/film.h"
 #include "kernels/tracing/low_discrepancy.h"
+#include "kernels/tracing/outcomes.h"
 #include "kernels/tracing/world.h"
 
 // Photons that one work item follows.
@@ -15,18 +15,12 @@
 #endif
 
 // Counts a photon that had so many quanta of power, of which `left` (0..1) came to its end: OUTCOME_*.
-static inline void count_photon(long* outcomes, int outcome, float power, float left)
+static inline void count_photon(Outcomes outcomes, int outcome, float power, float left)
 {
   const long quanta = convert_long_rte(power), rest = left >= 1.0f ? quanta : convert_long_rte((float)quanta * left);
-  outcomes[OUTCOME_EMITTED] += quanta;
-  outcomes[outcome] += rest;
-  outcomes[OUTCOME_ABSORBED] += quanta - rest;
-}
-
-static inline void add_outcomes(volatile __global long* energy, const long* outcomes)
-{
-  for (int i = 0; i < OUTCOME_COUNT; ++i)
-    if (outcomes[i] != 0) add_exactly(energy + i, outcomes[i]);
+  add_outcome(outcomes, OUTCOME_EMITTED, quanta);
+  add_outcome(outcomes, outcome, rest);
+  add_outcome(outcomes, OUTCOME_ABSORBED, quanta - rest);
 }
 
 // The last emitter that begins at this photon or before it, by bisection.
@@ -121,26 +115,27 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
   end.outcome = OUTCOME_LOST;
   end.left = 1.0f;
   bool met_caustic_object = false;
-  float4 choices = (float4)(0.0f);
+  SET_ASIDE float4 choices = (float4)(0.0f);
   for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
     const Hit hit = next_hit(world, path);
     if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
       end.outcome = met_caustic_object ? OUTCOME_ESCAPED : OUTCOME_MISSED;
       break;
     }
-    end.surface = surface_at(&world->geometry, hit);
-    end.triangle = hit.primitive;
-    const DeviceMaterial material = material_of(world, end.surface.object);
+    const Surface surface = surface_at(&world->geometry, hit);
+    const DeviceMaterial material = material_of(world, surface.object);
     lose_in_medium(world, path, hit.t);
     if (material.type == MATERIAL_DIFFUSE) {
       end.outcome = met_caustic_object ? OUTCOME_DEPOSITED : OUTCOME_MISSED;
+      end.surface = surface;
+      end.triangle = hit.primitive;
       break;
     }
     if (surface_number == world->scene.max_surfaces) break;
     met_caustic_object = true;
     if ((surface_number & 3) == 0) choices = random4(seed, pass, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
     float n_ratio;
-    if (!bend_path(world, path, hit.primitive, &end.surface, &material, band, choices.x, &n_ratio)) break;
+    if (!bend_path(world, path, hit.primitive, &surface, &material, band, choices.x, &n_ratio)) break;
     choices = choices.yzwx;
   }
   return end;

@@ -65,7 +65,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
                       uint stride, uint count, float film_scale, float energy_scale, float stored_scale)
 {
   const World world = WORLD;
-  long outcomes[OUTCOME_COUNT] = {0};
+  OUTCOMES(outcomes);
   film = film_of_pass(film, pass, camera.width * camera.height);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
@@ -92,28 +92,28 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #else
     const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
 #endif
-    const float share = band_share(&world, source, &band, emitter.share);
-    const float watts = emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
+    SET_ASIDE float share = band_share(&world, source, &band, emitter.share), dither = start.emission.w, wavelength = start.wavelength;
+    SET_ASIDE float watts = emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
     const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, pass, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
       const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
       if (!store_photon(stored + stored_first + photon, &end.surface, path.direction, band_number(emitter.cluster, part), object_count, xyz, stored_scale,
-                        start.emission.w))
-        ++outcomes[OUTCOME_REFUSED];
+                        dither))
+        add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
 #endif
     if (NEPHROID_SPLAT && end.outcome == OUTCOME_DEPOSITED) {
       const Stretch stretch = stretch_of(&world, &camera, &end, &path, &band);
       for (int i = 0; i < stretch.count; ++i) {
         Strand strand;
-        if (!strand_of(&world, &end, &path, source, &band, &stretch, i, start.wavelength, &strand)) continue;
+        if (!strand_of(&world, &end, &path, source, &band, &stretch, i, wavelength, &strand)) continue;
         const Splat splat = splat_at(&world, &camera, &strand.surface, strand.triangle, path.direction);
         if (splat.pixel < 0) continue;
         const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);
-        const float dither = start.emission.w + 0.61803399f * (float)i; // every strand's own
-        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, dither - floor(dither))) ++outcomes[OUTCOME_REFUSED];
+        const float turn = dither + 0.61803399f * (float)i; // every strand's own
+        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, turn - floor(turn))) add_outcome(outcomes, OUTCOME_REFUSED, 1);
 #if NEPHROID_MOMENTS
         moment += squared(xyz, film_scale);
 #endif

@@ -16,7 +16,7 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
   for (int place = 0; place < SURVEY_PLACES; ++place) {
     const float2 jitter = (float2)(place % 2 == 0 ? 0.25f : 0.75f, place < 2 ? 0.25f : 0.75f);
     const float3 direction = primary_direction(&camera, pixel % camera.width, pixel / camera.width, jitter);
-    const Path first_way = {camera.position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+    Path first_way = path_from_eye(&camera, direction);
     const Hit first = next_hit(&world, &first_way);
     const bool hits = first.primitive != NEPHROID_NO_PRIMITIVE, straight = hits && is_unbent(&world, &camera, &first);
     unbent[pixel * SURVEY_PLACES + place] = straight ? material_of(&world, object_of_primitive(&world.geometry, first.primitive)).reflector : -1;
@@ -50,7 +50,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
   const int column = index % camera.width, row = first_row + index / camera.width, pixel = row * camera.width + column;
   const float4 jitter = random4(seed, frame, (uint)pixel, 0u, STREAM_CAMERA);
   const float3 direction = primary_direction(&camera, column, row, jitter.xy);
-  const Path first_way = {camera.position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  Path first_way = path_from_eye(&camera, direction);
   const Hit first = next_hit(&world, &first_way);
   if (first.primitive == NEPHROID_NO_PRIMITIVE) return;
 

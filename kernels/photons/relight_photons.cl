@@ -15,7 +15,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 {
   const World world = WORLD;
   const LayerFilm film = LAYER_FILM(film, pass);
-  long outcomes[OUTCOME_COUNT] = {0};
+  OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
@@ -34,7 +34,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
       const int reflector = material_of(&world, end.surface.object).reflector, layer = emitter.light * scene.cluster_count + emitter.cluster;
       if (splat.pixel >= 0 && !layer_add(&film, splat.pixel, reflector, layer, emission.watts * left * splat.weight / PI_F, film_scale,
                                          FILM_LIMIT, mean_reflectance + emitter.cluster * reflector_count, start.emission.w))
-        ++outcomes[OUTCOME_REFUSED];
+        add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
     count_photon(outcomes, end.outcome, emission.watts / (float)emitter.photon_count * emitter.share * energy_scale, left);
   }

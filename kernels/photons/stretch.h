@@ -93,9 +93,11 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
                                 float high, Stretch* stretch)
 {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
-  float2 first, last;
-  if (!stretch_end(world, camera, end, path, low, &first, &stretch->beside)) return false;
-  if (!stretch_end(world, camera, end, path, high, &last, &stretch->beside)) return false;
+  float2 first, last = (float2)(0.0f);
+  for (int i = 0; i < 2; ++i) { // a loop, for one copy of the code
+    first = last;
+    if (!stretch_end(world, camera, end, path, i == 0 ? low : high, &last, &stretch->beside)) return false;
+  }
   const float pixels = distance(first, last);
   if (!(pixels < STRETCH_SHORTEST)) stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
   return true;
@@ -108,13 +110,10 @@ static inline Stretch stretch_of(const World* world, const DeviceCamera* camera,
 {
 #if NEPHROID_DIFFERENTIALS
   const float origin = stretch_origin(world, band);
-  const float4 span = world->stretch_span[band->cluster];
-  Stretch whole = {1, true, false};
-  if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, &whole)) return whole;
-  if (band->wavelength >= 0) {
-    const float4 place = world->stretch_place[band->wavelength];
-    Stretch own = {1, false, false};
-    if (stretch_over(world, camera, end, path, place.y - origin, place.z - origin, &own)) return own;
+  for (int i = 0; i < (band->wavelength >= 0 ? 2 : 1); ++i) {
+    const float4 span = i == 0 ? world->stretch_span[band->cluster] : world->stretch_place[band->wavelength];
+    Stretch stretch = {1, i == 0, false};
+    if (stretch_over(world, camera, end, path, span.y - origin, span.z - origin, &stretch)) return stretch;
   }
 #endif
   const Stretch point = {1, false, false};
@@ -133,7 +132,7 @@ static inline float place_in_tent(const World* world, int wavelength, float u, f
 // u in [0, 1) picks a wavelength of the photon's cluster, as choose_band does, and a place in its tent: *x becomes its s less the photon's.
 static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x)
 {
-  const int first = world->tables.first[photon->cluster], count = world->tables.first[photon->cluster + 1] - first;
+  const int cluster = anew(photon->cluster), first = world->tables.first[cluster], count = world->tables.first[cluster + 1] - first;
   const int members = world->tables.first[world->scene.cluster_count];
   __global const float* cdf = world->wavelength_cdf + light * members + first;
   const int member = choose(cdf, count, u);

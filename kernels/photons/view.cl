@@ -64,7 +64,7 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
   const uint pixel = pixels[first + index];
   const int column = (int)pixel % camera.width, row = (int)pixel / camera.width;
   const float4 jitter = random4(seed, sample, pixel, 0u, STREAM_VIEW);
-  const Path path = {camera.position.xyz, primary_direction(&camera, column, row, jitter.xy), NEPHROID_NO_PRIMITIVE, camera.inside, no_losses(), 0.0f};
+  Path path = path_from_eye(&camera, primary_direction(&camera, column, row, jitter.xy));
   const Hit hit = next_hit(&world, &path);
   VisiblePoint point = nothing_visible();
   if (hit.primitive != NEPHROID_NO_PRIMITIVE) {

@@ -91,14 +91,15 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float3 normal = side * surface->shading, from = start_on_side(surface, side);
-  const float4 random = sky_numbers(&light, seed, sample, paths, pixel);
-  float3 sum = (float3)(0.0f);
+  SET_ASIDE float4 random = sky_numbers(&light, seed, sample, paths, pixel);
+  SET_ASIDE float3 sum = (float3)(0.0f);
   for (int i = 0; i < 2; ++i) {
     const SkyPlace place = i == 0 ? sample_sky(&world->sky, random.xy) : sky_in(&world->sky, cosine_direction(normal, random.z, random.w));
     const float cosine = dot(place.direction, normal);
     if (!(cosine > 0.0f) || !(place.density > 0.0f) || !(side * dot(place.direction, surface->geometric) > 0.0f)) continue;
-    if (is_blocked(world, from, place.direction, INFINITY, triangle)) continue;
-    sum += place.rgb * (place.density * cosine / (place.density + cosine / PI_F));
+    SET_ASIDE float3 rgb = place.rgb;
+    SET_ASIDE float weight = place.density * cosine / (place.density + cosine / PI_F);
+    if (!is_blocked(world, from, place.direction, INFINITY, triangle)) sum += rgb * weight;
   }
   return light.radiometric * sum;
 }
@@ -110,17 +111,17 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
   return material_of(world, object).type == MATERIAL_DIFFUSE && is_in_air(&camera->inside);
 }
 
-// Takes a path that has met `hit` on through glass and mirrors in one band to a diffuse surface or out of the scene. `hit` and, of a
-// diffuse surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost:
+// Takes a path on through glass and mirrors in one band to a diffuse surface or out of the scene. known: `hit` is what it meets next. `hit` and,
+// of a diffuse surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost:
 // radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and
 // refraction. likelier: the path takes the likelier of the two everywhere, for a first picture without noise.
-static inline float reach_end(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint paths, uint pixel,
-                              uint stream, bool likelier, Surface* surface)
+IN_PLACE float reach_end(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed, uint sample, uint paths,
+                         uint pixel, uint stream, bool likelier, Surface* surface)
 {
   float radiance_scale = 1.0f;
-  float4 choices = (float4)(0.0f);
+  SET_ASIDE float4 choices = (float4)(0.0f);
   for (int surface_number = 0; surface_number <= world->scene.max_surfaces; ++surface_number) {
-    if (surface_number > 0) *hit = next_hit(world, path);
+    if (surface_number > 0 || !known) *hit = next_hit(world, path);
     if (hit->primitive == NEPHROID_NO_PRIMITIVE) return radiance_scale;
     *surface = surface_at(&world->geometry, *hit);
     const DeviceMaterial material = material_of(world, surface->object);
@@ -137,10 +138,10 @@ static inline float reach_end(const World* world, Path* path, Hit* hit, const Ba
 }
 
 // The same to a diffuse surface only: 0 where the path leaves the scene.
-static inline float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint paths,
-                                  uint pixel, uint stream, Surface* surface)
+IN_PLACE float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint paths, uint pixel,
+                             uint stream, Surface* surface)
 {
-  const float radiance_scale = reach_end(world, path, hit, band, seed, sample, paths, pixel, stream, false, surface);
+  const float radiance_scale = reach_end(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface);
   return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
 }
 

@@ -63,6 +63,7 @@ static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index
   uint shuffled = index;
   if (set != 0u) shuffled = reverse_bits(permute_by_lower_bits((uint4)(reverse_bits(index)), (uint4)(key.x ^ key.w * 0x9e3779b9u)).x);
   uint3 bits = (uint3)(0u);
+  ROLLED
   for (int i = 0; i < 32; ++i) bits ^= sobol_directions[i] & (uint3)(0u - (shuffled >> i & 1u));
   // Dimension 1 is the reversed index, so its own reversal, where scrambling happens, is the index.
   const uint4 reversed = (uint4)(shuffled, reverse_bits(bits.x), reverse_bits(bits.y), reverse_bits(bits.z));

@@ -23,8 +23,23 @@
 #define STREAM_SEE 49u                   // environment/see.cl, here and below: index is the pixel
 #define STREAM_SEE_WAVELENGTH 50u        // where a pixel starts in the spectrum
 
+// Registers are few on a GPU. There a loop that is ROLLED stays one, and what is made of a number `anew` is not made before the loops that it
+// stands in and kept for all of them.
+#ifdef NEPHROID_GPU
+#define ROLLED _Pragma("unroll 1")
+static inline int anew(int number)
+{
+  volatile int kept = number;
+  return kept;
+}
+#else
+#define ROLLED
+static inline int anew(int number) { return number; }
+#endif
+
 static inline uint4 philox4x32(uint4 counter, uint2 key)
 {
+  ROLLED // else all keys are made once, and kept wherever a path goes
   for (int round = 0; round < 10; ++round) {
     const ulong a = (ulong)counter.x * 0xD2511F53u;
     const ulong b = (ulong)counter.z * 0xCD9E8D57u;

@@ -48,6 +48,17 @@ typedef struct {
         {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size}, reflector_count, scene \
   }
 
+// For what takes a World and is large: called as a function of its own it would need the World in memory, which kernels have as arguments.
+#define IN_PLACE static inline __attribute__((always_inline))
+
+// What a path does not need until it has found its next hit. On a GPU it waits in memory: registers are few there, and compilers fill more
+// of them with what they can make of such numbers beforehand, as addresses in tables.
+#ifdef NEPHROID_GPU
+#define SET_ASIDE volatile
+#else
+#define SET_ASIDE
+#endif
+
 typedef struct {
   float3 origin, direction;
   uint skip;   // the triangle that the path leaves
@@ -57,10 +68,20 @@ typedef struct {
   Differential differential;
 } Path;
 
-static inline Hit next_hit(const World* world, const Path* path)
+static inline Path path_from_eye(const DeviceCamera* camera, float3 direction)
 {
-  return closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction, -path->behind,
-                     INFINITY, path->skip);
+  const Path path = {camera->position.xyz, direction, NEPHROID_NO_PRIMITIVE, camera->inside, no_losses(), 0.0f};
+  return path;
+}
+
+static inline Hit next_hit(const World* world, Path* path)
+{
+  SET_ASIDE ulong latest = path->media.latest, earlier = path->media.earlier;
+  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction,
+                              -path->behind, INFINITY, path->skip);
+  path->media.latest = latest;
+  path->media.earlier = earlier;
+  return hit;
 }
 
 static inline bool is_blocked(const World* world, float3 from, float3 direction, float distance, uint skip)
@@ -177,9 +198,10 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
 {
 #if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
   if (band->wavelength >= 0) {
-    const float left = wavelength_left(&world->tables, losses, band->wavelength) * band->weight;
-    const float reflectance = reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + band->wavelength];
-    const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength];
+    const int wavelength = anew(band->wavelength);
+    const float left = wavelength_left(&world->tables, losses, wavelength) * band->weight;
+    const float reflectance = reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + wavelength];
+    const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + wavelength];
     return left * (float4)(reflectance * light_xyz.xyz, light_xyz.w);
   }
 #endif
@@ -191,7 +213,7 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
 
 // What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a reflector sends
 // back of it (-1: a white one).
-static inline float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
+IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
 {
   if (is_of_environment(world, source.light))
     return source.rgb.x * carried_row(world, losses, source.light, band, reflector) +

@@ -161,7 +161,6 @@ bool Renderer::cast(Receivers& receivers)
                 {"sky_lights", sky_lights_},
                 {"light_count", static_cast<int>(sky_lights_.size() / 2)},
                 {"parts_seen", receivers.parts_seen()}});
-    context_.finish();
   });
 }
 

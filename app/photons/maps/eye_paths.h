@@ -56,11 +56,11 @@ public:
 
   void state(tracing::State& state) { steps_.state(state); }
 
-  /// The next path of each of `count` of the camera's pixels, into points().
+  /// Queues the next path of each of `count` of the camera's pixels, into points().
   void look(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster,
             const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count)
   {
-    world_.run(view_, std::max(count, 1u), 64,
+    world_.queue(view_, std::max(count, 1u), 64,
                {{"cluster_cdf", world_.buffers.cluster_cdf},
                 {"points", points_},
                 {"camera", camera},
