@@ -92,7 +92,7 @@ inline double scalar(const Snapshot& snapshot, std::string_view group, std::stri
 class Job {
 public:
   virtual ~Job() = default;
-  /// One short piece of work, about 50 ms. Never called once finished() is true.
+  /// One short piece of work, about 30 ms. Never called once finished() is true.
   virtual void step() = 0;
   virtual bool finished() const = 0;
   virtual Progress progress() const = 0;

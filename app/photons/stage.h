@@ -53,7 +53,7 @@ public:
   }
   /// How many passes it takes part in: what has had enough samples takes no more.
   virtual std::int64_t passes() const { return preset::max_passes; }
-  /// One step of about 50 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.
+  /// One step of about 30 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.
   virtual bool step(std::int64_t pass) = 0;
   /// One step of its part of the run's first picture (DeviceWorld::first), before the first pass. True when that is complete.
   virtual bool look() { return true; }

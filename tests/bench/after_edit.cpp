@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window shows after an edit, without its window: a run of a preset works for two seconds, then the edit comes.
+// What the window shows after an edit, without its window. Kernels were compiled before.
 //
 //     nephroid_after_edit SECONDS TRUTH FOLDER PRESET EDIT [SET...]
 //     nephroid_after_edit EDITS - - PRESET EDIT [SET...]
 //
-// EDIT and SET: as of --set; SET holds before the edit, too. The first prints a line of CSV for each time up to SECONDS: the picture that
-// is shown then against TRUTH, a picture of the edited preset. "previous": it is still the one before the edit. FOLDER gets a PNG of each.
-// The second makes so many edits, EDIT and back, .3 to .9 s of work apart, and prints the seconds from an edit to its first picture: the
-// median and the most. tests/experiments/after_edits.py makes tables of both.
+// EDIT and SET: as of --set; SET holds before the edit, too. The first lets the run work for a second, edits and prints a line of CSV for
+// each time up to SECONDS: the picture that is shown then against TRUTH, a picture of the edited preset. "previous": it is still the one
+// before the edit. FOLDER gets a PNG of each. The second makes so many edits, EDIT and back, .3 to .9 s of work apart, and prints the
+// seconds from an edit to its first picture: the median and the most. tests/experiments/after_edits.py makes tables of both.
 #include "image/image.h"
 #include "measure/read_picture.h"
 #include "ui/state/device_runs.h"
@@ -142,6 +142,11 @@ int main(int count, char** arguments)
     if (truth_file == "-") {
       print_first_pictures(run, static_cast<int>(number));
     } else {
+      for (int kernels_are_compiled = 0; kernels_are_compiled < 2; ++kernels_are_compiled) { // the edit and back
+        run.edit();
+        run.first_picture();
+      }
+      run.work(1);
       run.edit();
       print_errors(run.pictures(number), measure::read_linear_rgb(truth_file), arguments[3]);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bakes on a device: photons direction after direction, in steps of about 50 ms (kernels/environment/bake.cl).
+// Bakes on a device: photons direction after direction, in steps of about 30 ms (kernels/environment/bake.cl).
 #pragma once
 #include "environment/bake/bake.h"
 #include "environment/bake/caster.h"

@@ -39,7 +39,7 @@ public:
   void find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
   /// Works out the distances of all texels.
   void find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
-  /// One step of about 50 ms of light on texels that lack it: of those that `light` gets. True when all have theirs.
+  /// One step of about 30 ms of light on texels that lack it: of those that `light` gets. True when all have theirs.
   bool cast(const std::function<void(const CastTexels&)>& light);
 
   /// All is out of date: light has changed, or the object or what stands around it has moved.

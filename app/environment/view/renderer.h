@@ -36,7 +36,7 @@ public:
 
   /// Builds a tree where objects have moved in the last one: for many passes, not for a coarse picture.
   void renew_tree();
-  /// One step of about 50 ms of the pass in hand.
+  /// One step of about 30 ms of the pass in hand.
   void step();
   std::int64_t passes() const { return pass_; } ///< complete ones
   double part() const;                          ///< of the pass in hand, 0..1
