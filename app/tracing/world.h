@@ -82,8 +82,7 @@ struct World {
     kernel.run(global, local, arguments, own);
   }
 
-  /// The same, and waits for it: a launch is a step of some 30 ms, whose time says how large the next one is (step_size.h). Beside that, waiting
-  /// is less than a thousandth.
+  /// The same, and waits for it: a launch is a step of about 30 ms, whose time says how large the next one is (step_size.h).
   void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
            std::initializer_list<compute::Argument> more = {})
   {

@@ -137,13 +137,13 @@ void RunInHand::take_arrival()
   }
 }
 
-/// Parts of a picture on black would hide a whole one of the run before: they are shown only where there is none, or the run is slow.
+/// Parts of a picture on black would hide the one of the run before: they are shown only where there is none, or the run is slow.
 bool RunInHand::is_worth_showing(const job::Snapshot& newest)
 {
-  if (newest.progress.whole || !snapshot_ || !snapshot_->progress.whole || status_.state != job::State::running) return true;
+  if (newest.progress.whole || !snapshot_ || shown_since_start_ || status_.state != job::State::running) return true;
   const auto now = std::chrono::steady_clock::now();
   if (!parts_since_) parts_since_ = now;
-  return now - *parts_since_ > std::chrono::seconds(1);
+  return now - *parts_since_ > std::chrono::seconds(2);
 }
 
 /// True where there is a new one.

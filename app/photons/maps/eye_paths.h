@@ -61,19 +61,19 @@ public:
             const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count)
   {
     world_.queue(view_, std::max(count, 1u), 64,
-               {{"cluster_cdf", world_.buffers.cluster_cdf},
-                {"points", points_},
-                {"camera", camera},
-                {"seed", seed},
-                {"pass", pass},
-                {"sample", paths.before},
-                {"place", paths.before_in_half},
-                {"path_count", paths.count},
-                {"cluster", cluster},
-                {"object_count", static_cast<int>(world_.tables.objects.size())},
-                {"pixels", pixels},
-                {"first", first},
-                {"count", count}});
+                 {{"cluster_cdf", world_.buffers.cluster_cdf},
+                  {"points", points_},
+                  {"camera", camera},
+                  {"seed", seed},
+                  {"pass", pass},
+                  {"sample", paths.before},
+                  {"place", paths.before_in_half},
+                  {"path_count", paths.count},
+                  {"cluster", cluster},
+                  {"object_count", static_cast<int>(world_.tables.objects.size())},
+                  {"pixels", pixels},
+                  {"first", first},
+                  {"count", count}});
   }
 
 private:
