@@ -15,7 +15,7 @@ struct Watch {
   /// Before each part of the work. Throws interrupted where it shall end.
   void begin(const std::string& doing) const
   {
-    if (stop.stop_requested()) throw Error(ErrorKind::interrupted, "", "interrupted before rendering began");
+    if (stop.stop_requested()) throw Error(ErrorKind::interrupted, "", "interrupted while " + doing);
     if (tell) tell(doing);
   }
 };

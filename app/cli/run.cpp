@@ -81,7 +81,7 @@ void fit_white(const RunOptions& options, Target& target, const std::stop_token&
     const preset::Preset first = target.preset.animation ? preset::at_frame(target.preset, 0) : target.preset;
     preset::at_origins(first, [&] {
       shared.prepared = run::prepare(first, shared.prepared ? &*shared.prepared : nullptr, {interrupted, {}});
-      shared.white = run::fitted_white(*shared.prepared, device_of(options, shared), interrupted);
+      shared.white = run::fitted_white(*shared.prepared, device_of(options, shared), {interrupted, {}});
     });
     fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
   }

@@ -59,7 +59,7 @@ public:
     for (const std::string& note : prepared.plan->notes)
       if (!is_frame() || shared.notes.insert(note).second) fmt::print(stderr, "note: {}\n", note);
     const compute::Context& context = device_of(options_, shared);
-    compute::tell_of_compiling(context, [watch] { watch.tell("compiling kernels"); });
+    std::optional<compute::TellOfCompiling> telling(std::in_place, context, [watch] { watch.begin("compiling kernels"); });
     std::unique_ptr<job::Job> job = taken_on(shared);
     if (!job) run::require_memory(prepared, context); // a run that cannot be leaves no folder
     const bool is_new_folder = run::claim_folder(target_.folder);
@@ -71,7 +71,7 @@ public:
         shared.inputs_of_job = prepared.plan->inputs;
       }
       activity_.clear();
-      compute::tell_of_compiling(context, [] {}); // the context outlives this
+      telling.reset();
       stop_if_interrupted_early();
       begin_or_resume(prepared, context, *job);
       stop_if_interrupted_early();

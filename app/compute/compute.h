@@ -72,8 +72,9 @@ public:
   /// (no OpenCL platform, no HOME and an unwritable kernel cache).
   static Context open(const DeviceOptions& options = {});
   const DeviceInfo& device() const;
-  /// How many programs were built for it so far.
-  std::size_t builds() const;
+  /// Whether a program was built since set_warm(): the first run of its kernels compiles them.
+  bool is_cold() const;
+  void set_warm() const;
   /// Waits until everything queued is done. Throws failed with the first error.
   void finish();
   std::shared_ptr<detail::ContextState> state;
@@ -209,9 +210,18 @@ std::string kernel_source(const Context& context, const std::string& file);
 using KernelTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
 KernelTimes kernel_times(const std::filesystem::path& folder);
 
-/// Who waits for kernels to be compiled is told so: the first run with a new option takes seconds to begin.
-/// From here on tell() is called before the context compiles a kernel source, by the thread that uses it, and not for programs that it has
-/// already. OpenCL may go on compiling until each kernel has run once.
-void tell_of_compiling(const Context& context, std::function<void()> tell);
+/// Who waits for kernels to be compiled is told so: the first run with a new option takes seconds to begin. As long as this is there,
+/// tell() is called before the context compiles a kernel source, by the thread that uses it, and not for programs that it has already.
+/// What it throws ends the build. OpenCL may go on compiling until each kernel has run once.
+class TellOfCompiling {
+public:
+  TellOfCompiling(Context context, std::function<void()> tell);
+  ~TellOfCompiling();
+  TellOfCompiling(const TellOfCompiling&) = delete;
+  TellOfCompiling& operator=(const TellOfCompiling&) = delete;
+
+private:
+  Context context_;
+};
 
 } // namespace nephroid::compute

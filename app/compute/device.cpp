@@ -139,11 +139,21 @@ Context Context::open(const DeviceOptions& options)
   return context;
 }
 
-void tell_of_compiling(const Context& context, std::function<void()> tell) { context.state->tell_of_compiling = std::move(tell); }
+TellOfCompiling::TellOfCompiling(Context context, std::function<void()> tell) : context_(std::move(context))
+{
+  context_.state->tell_of_compiling = std::move(tell);
+}
+
+TellOfCompiling::~TellOfCompiling()
+{
+  context_.state->tell_of_compiling = [] {};
+}
 
 const DeviceInfo& Context::device() const { return state->info; }
 
-std::size_t Context::builds() const { return state->builds; }
+bool Context::is_cold() const { return state->cold; }
+
+void Context::set_warm() const { state->cold = false; }
 
 void Context::finish()
 {

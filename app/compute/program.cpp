@@ -124,7 +124,7 @@ BuildError build_error(const std::string& file, const std::string& device, const
 cl::Program build(detail::ContextState& context, const std::string& file, const std::string& source, const std::string& options)
 {
   context.tell_of_compiling();
-  ++context.builds;
+  context.cold = true;
   cl::Program program(context.context, source);
   try {
     program.build(context.device, options.c_str());

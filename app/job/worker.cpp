@@ -20,7 +20,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds adoption_linger{25};
 
 /// After a snapshot the job works at least so many times as long as that took: large pictures may take longer than the interval. In a
-/// job's first second each picture is much better than the one before: then it works half as long, and no longer than half its age.
+/// job's first second each picture is much better than the one before: then half of that is enough, and the interval is at most half the
+/// job's age.
 constexpr int work_a_snapshot = 4;
 constexpr std::chrono::seconds youth{1};
 

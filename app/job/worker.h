@@ -35,7 +35,7 @@ public:
   /// newer one overtakes while the job works at it starts and fails nothing. A cancel() or pause() that follows holds, whatever becomes of
   /// it.
   std::uint64_t adopt(std::shared_ptr<const preset::Preset> preset, std::function<std::unique_ptr<Job>()> otherwise);
-  void cancel(); ///< after the step in hand, or after make() where that is still running; it may throw interrupted
+  void cancel(); ///< after the step in hand; or after make() where that still runs, which may end early by throwing interrupted
   void pause(bool paused);
   Status status() const;
   /// The newest snapshot, null before the first ever: after start() the old job's stays until the new one's first, so that a
@@ -47,7 +47,8 @@ public:
   /// The newest one of the pixel that is watched; null where there is none.
   std::shared_ptr<const PixelSpectrum> spectrum() const;
   /// How often snapshots are made while running (default 100 ms; the first after the first step). Where snapshots would take more than a
-  /// fifth of the time, they are made less often. In a job's first second they come more often, after a third of the time if need be.
+  /// fifth of the time, they are made less often. In a job's first second they come sooner after each other, and may take a third of the
+  /// time.
   void set_snapshot_interval(std::chrono::milliseconds interval);
   /// Blocks until the job is finished, cancelled or failed; for tests.
   void wait();

@@ -116,8 +116,8 @@ public:
 
   void step() override
   {
-    if (first_)
-      note(*std::exchange(first_, std::nullopt));
+    if (unnoted_)
+      note(*std::exchange(unnoted_, std::nullopt));
     else if (is_due())
       measure();
     else
@@ -137,10 +137,13 @@ public:
   job::Snapshot snapshot() override
   {
     job::Snapshot snapshot = job_->snapshot();
-    if (may_note(snapshot.progress) && history_.rows.empty())
-      first_ = snapshot; // somebody waits for it: its row is made with the next step
-    else if (may_note(snapshot.progress))
-      note(snapshot);
+    if (may_note(snapshot.progress)) {
+      const bool is_asked_for = !times_.empty() && times_.front() <= snapshot.progress.work_seconds;
+      if (history_.rows.empty() && !is_asked_for)
+        unnoted_ = snapshot;
+      else
+        note(snapshot);
+    }
     snapshot.progress = progress();
     snapshot.history = history();
     return snapshot;
@@ -177,7 +180,7 @@ public:
       if (!history_.error_column.starts_with("estimated_")) history_.error_column = history_.columns.empty() ? "" : "estimated_lab_mean";
     }
     history_.rows.clear();
-    first_.reset();
+    unnoted_.reset();
     history_.measuring_seconds = 0;
     if (job_->progress().work_seconds == 0) began_ = Clock::now(), wall_before_ = 0; // it begins anew
     next_ = wanted_ = 0;
@@ -323,8 +326,8 @@ private:
   bool is_mean_square_ = false; ///< the error that may stop the run
   job::History history_;
   std::shared_ptr<const job::History> shown_;
-  std::optional<job::Snapshot> first_; ///< which has no row yet
-  std::vector<double> times_;          ///< to measure at whatever it takes
+  std::optional<job::Snapshot> unnoted_; ///< the first whole picture, for which somebody waits: its row is made with the next step
+  std::vector<double> times_;            ///< to measure at whatever it takes
   Clock::time_point began_;
   double wall_before_ = 0;    ///< of a resumed run's earlier parts
   double last_seconds_ = 0;   ///< of work at the newest row

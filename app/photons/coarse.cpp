@@ -32,7 +32,7 @@ std::vector<Between> places_between(int pixels, int blocks, int edge)
 
 std::vector<int> edges_of_first_pictures(int width, int height)
 {
-  constexpr double most_blocks = 64 * 64 * 1.25;
+  constexpr double most_blocks = 64 * 64 * 1.25; // of the second picture
   int edge = 1;
   while (static_cast<double>(width) * height / edge / edge > most_blocks) edge *= 2;
   if (edge == 1) return {};

@@ -19,8 +19,8 @@ struct Blocks {
   }
 };
 
-/// The edges of the blocks that a run's first pictures have, powers of two above 1: the first picture is there at once, each other one
-/// soon.
+/// The edges of the blocks that a run's first pictures have, powers of two above 1, each half of the one before: the first picture has
+/// about 32 x 32 blocks and is there at once, the others soon. None where a picture has so few pixels anyway.
 std::vector<int> edges_of_first_pictures(int width, int height);
 
 /// rgb: [pixel][3]. The means of blocks, [block][3].

@@ -60,7 +60,6 @@ public:
         preset_(preset), stop_seconds_(preset.stop.seconds)
   {
     const Settings& settings = plan.settings;
-    const std::size_t builds = context.builds();
     if (plan.first_picture && !settings.relight && settings.estimator != Settings::Estimator::sppm)
       first_edges_ = edges_of_first_pictures(scene.camera.width, scene.camera.height);
     smooths_seen_ = plan.first_picture && settings.smoothing == Settings::Smoothing::automatic;
@@ -76,9 +75,10 @@ public:
     for (const RunPart* part : plan.parts)
       if (part->make) stages_.push_back({part->make(world_, scene, settings), part->layer});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
-    if (context.builds() > builds) { // else an earlier run's stages have warmed them up
+    if (context.is_cold()) {
       for (const TimedStage& s : stages_) s.stage->warm_up();
       world_.energy.fill_zero();
+      context.set_warm();
     }
     // A run is over when no stage takes part any more.
     std::int64_t most = 0;

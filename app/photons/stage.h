@@ -55,7 +55,7 @@ public:
   virtual std::int64_t passes() const { return preset::max_passes; }
   /// One step of about 30 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.
   virtual bool step(std::int64_t pass) = 0;
-  /// One step of its part of the run's first picture (DeviceWorld::first), before the first pass. True when that is complete.
+  /// One step of its part of a first picture (DeviceWorld::first), before the first pass. True when that is complete.
   virtual bool look() { return true; }
   /// Adds its layers to the first picture, as develop.
   virtual void develop_first(job::Picture& /*picture*/) {}

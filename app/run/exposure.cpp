@@ -44,10 +44,11 @@ double white_for(const job::Picture& picture)
   return middle > 0 ? std::clamp(std::stod(fmt::format("{:.1e}", 2 * middle)), 1e-12, 1e12) : 1;
 }
 
-double fitted_white(const Prepared& prepared, const compute::Context& context, const std::stop_token& stop)
+double fitted_white(const Prepared& prepared, const compute::Context& context, const Watch& watch)
 {
+  // The engine's pictures may be bright as they are.
+  if (std::ranges::count(prepared.preset.settings.type().without, "white") > 0) return 1;
   preset::Preset preset = prepared.preset;
-  if (std::ranges::count(preset.settings.type().without, "white") > 0) return 1; // the engine's pictures are bright as they are
   preset.white = 1;
   preset.stop = {};
   preset.stop.passes = 1;
@@ -58,7 +59,7 @@ double fitted_white(const Prepared& prepared, const compute::Context& context, c
   const Prepared small = prepare(preset, &prepared);
   const std::unique_ptr<job::Job> job = make_job(small, context);
   while (job->progress().step < 1 && !job->finished()) {
-    if (stop.stop_requested()) throw Error(ErrorKind::interrupted, preset.source, "interrupted before rendering began");
+    watch.begin("fitting white to a small picture");
     job->step();
   }
   return white_for(*job->snapshot().picture);

@@ -76,8 +76,8 @@ std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Cont
 double white_for(const job::Picture& picture);
 
 /// The same of the preset's first whole picture, at most 256 pixels wide and high, whatever the preset's white is: what stands for "auto".
-/// 1 where white changes nothing of the engine's pictures. Throws as prepare and make_job do, and interrupted where `stop` asks for it.
-double fitted_white(const Prepared& prepared, const compute::Context& context, const std::stop_token& stop = {});
+/// 1 where white changes nothing of the engine's pictures. Throws as prepare and make_job do, and interrupted where `watch` asks for it.
+double fitted_white(const Prepared& prepared, const compute::Context& context, const Watch& watch = {});
 
 /// The white of the run in the folder, by its preset.json; nothing where that is missing or damaged, or says "auto".
 std::optional<double> white_of_run(const std::filesystem::path& folder);

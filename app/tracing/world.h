@@ -82,7 +82,7 @@ struct World {
     kernel.run(global, local, arguments, own);
   }
 
-  /// The same, and waits for it: a launch is a step of about 30 ms, whose time says how large the next one is (step_size.h).
+  /// The same, and waits for it, so that a step's time is that of its work (step_size.h). Steps of several launches queue() and wait once.
   void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
            std::initializer_list<compute::Argument> more = {})
   {

@@ -132,7 +132,7 @@ static inline float place_in_tent(const World* world, int wavelength, float u, f
 // u in [0, 1) picks a wavelength of the photon's cluster, as choose_band does, and a place in its tent: *x becomes its s less the photon's.
 static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x)
 {
-  const int cluster = anew(photon->cluster), first = world->tables.first[cluster], count = world->tables.first[cluster + 1] - first;
+  const int cluster = made_late(photon->cluster), first = world->tables.first[cluster], count = world->tables.first[cluster + 1] - first;
   const int members = world->tables.first[world->scene.cluster_count];
   __global const float* cdf = world->wavelength_cdf + light * members + first;
   const int member = choose(cdf, count, u);

@@ -5,7 +5,7 @@
 #ifndef NEPHROID_ATTENUATION_H
 #define NEPHROID_ATTENUATION_H
 
-#include "kernels/tracing/random.h"
+#include "kernels/tracing/registers.h"
 #include "kernels/tracing/shared_types.h"
 
 #ifndef NEPHROID_ATTENUATORS
@@ -69,7 +69,7 @@ static inline float wavelength_left(const SpectralTables* tables, const Losses* 
 static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* losses, int light, int cluster, int reflector)
 {
   float4 sum = (float4)(0.0f);
-  cluster = anew(cluster);
+  cluster = made_late(cluster);
   for (int i = tables->first[cluster]; i < tables->first[cluster + 1]; ++i) {
     const int wavelength = tables->wavelengths[i];
     const float4 light_xyz = tables->light_xyz[light * WAVELENGTH_COUNT + wavelength];

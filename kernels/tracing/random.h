@@ -4,6 +4,8 @@
 #ifndef NEPHROID_RANDOM_H
 #define NEPHROID_RANDOM_H
 
+#include "kernels/tracing/registers.h"
+
 // Streams keep apart what is drawn for different ends with the same (pass, index, dimension). No two kernels of a run share one; the
 // kernels of relighting (relight_*.cl) use those of the kernels that they replace.
 #define STREAM_PHOTONS 0u                // photons.cl: index is the photon of a pass
@@ -22,20 +24,6 @@
 #define STREAM_BAKE 48u                  // environment/bake.cl: pass is the direction, index the photon
 #define STREAM_SEE 49u                   // environment/see.cl, here and below: index is the pixel
 #define STREAM_SEE_WAVELENGTH 50u        // where a pixel starts in the spectrum
-
-// Registers are few on a GPU. There a loop that is ROLLED stays one, and what is made of a number `anew` is not made before the loops that it
-// stands in and kept for all of them.
-#ifdef NEPHROID_GPU
-#define ROLLED _Pragma("unroll 1")
-static inline int anew(int number)
-{
-  volatile int kept = number;
-  return kept;
-}
-#else
-#define ROLLED
-static inline int anew(int number) { return number; }
-#endif
 
 static inline uint4 philox4x32(uint4 counter, uint2 key)
 {

@@ -28,7 +28,7 @@ typedef struct {
 
 static inline float sky_density(const Sky* sky, int row, int column)
 {
-  const int width = anew(sky->size.width), height = anew(sky->size.height);
+  const int width = made_late(sky->size.width), height = made_late(sky->size.height);
   __global const float* columns = sky->cdf + height + (size_t)row * (size_t)width;
   const float of_row = sky->cdf[row] - chance_before(sky->cdf, row), of_column = columns[column] - chance_before(columns, column);
   // cos a - cos b as a product, exact for thin rows.
@@ -53,7 +53,7 @@ static inline float place_in_bin(__global const float* cdf, int bin, float numbe
 // place: two numbers in [0, 1).
 static inline SkyPlace sample_sky(const Sky* sky, float2 place)
 {
-  const int width = anew(sky->size.width), height = anew(sky->size.height);
+  const int width = made_late(sky->size.width), height = made_late(sky->size.height);
   const int row = choose(sky->cdf, height, place.x);
   __global const float* columns = sky->cdf + height + (size_t)row * (size_t)width;
   const int column = choose(columns, width, place.y);

@@ -7,6 +7,7 @@
 #include "kernels/tracing/band.h"
 #include "kernels/tracing/differential.h"
 #include "kernels/tracing/interface.h"
+#include "kernels/tracing/registers.h"
 #include "kernels/tracing/sky.h"
 
 #ifndef NEPHROID_MIRRORS
@@ -47,17 +48,6 @@ typedef struct {
         index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                                      \
         {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size}, reflector_count, scene \
   }
-
-// For what takes a World and is large: called as a function of its own it would need the World in memory, which kernels have as arguments.
-#define IN_PLACE static inline __attribute__((always_inline))
-
-// What a path does not need until it has found its next hit. On a GPU it waits in memory: registers are few there, and compilers fill more
-// of them with what they can make of such numbers beforehand, as addresses in tables.
-#ifdef NEPHROID_GPU
-#define SET_ASIDE volatile
-#else
-#define SET_ASIDE
-#endif
 
 typedef struct {
   float3 origin, direction;
@@ -198,7 +188,7 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
 {
 #if NEPHROID_JITTER || NEPHROID_DIFFERENTIALS
   if (band->wavelength >= 0) {
-    const int wavelength = anew(band->wavelength);
+    const int wavelength = made_late(band->wavelength);
     const float left = wavelength_left(&world->tables, losses, wavelength) * band->weight;
     const float reflectance = reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + wavelength];
     const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + wavelength];

@@ -142,7 +142,7 @@ int main(int count, char** arguments)
     if (truth_file == "-") {
       print_first_pictures(run, static_cast<int>(number));
     } else {
-      for (int kernels_are_compiled = 0; kernels_are_compiled < 2; ++kernels_are_compiled) { // the edit and back
+      for (int i = 0; i < 2; ++i) { // the edit and back, so that its kernels are compiled
         run.edit();
         run.first_picture();
       }

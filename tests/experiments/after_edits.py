@@ -7,7 +7,7 @@
 BENCH is build/release/tests/bench/nephroid_after_edit, OLD_BENCH that of another version to compare with; it says what it does. PROGRAM
 renders the truths into OUT/truth once: so many passes without smoothing. Each scene is measured after its camera was moved, first-light
 after each edit. Of every edit the time to the first picture is taken, median and most of five. Tables go to OUT/tables.md,
-pictures of first-light to OUT/strip-EDIT.png, a row for each program. Nothing else should run on the machine.
+pictures to OUT/strip-SCENE-EDIT.jpg, a row for each program. Nothing else should run on the machine.
 """
 import csv
 import json

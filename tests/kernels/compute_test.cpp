@@ -112,7 +112,7 @@ TEST_F(EditedKernels, SayWhenTheyAreCompiled)
   write("test.cl", "kernel void k(global int* a) { a[0] = VALUE; }\n");
   const Context context = open();
   int told = 0;
-  compute::tell_of_compiling(context, [&] { ++told; });
+  const compute::TellOfCompiling telling(context, [&] { ++told; });
   for (const char* value : {"1", "1", "2"}) Program(context, "test.cl", {{"VALUE", value}});
   EXPECT_EQ(told, 2) << "not of the one that is built already";
 }
@@ -183,7 +183,7 @@ TEST_F(EditedKernels, AreWatchedWhileTheyAreBuilt)
   write("test.cl", "kernel void k(global int* a) { a[0] = 1; }\n");
   const Context context = open();
   int told = 0;
-  compute::tell_of_compiling(context, [&] { ++told; });
+  const compute::TellOfCompiling telling(context, [&] { ++told; });
   Program(context, "test.cl");
   const compute::KernelTimes before = compute::kernel_times(folder());
   EXPECT_EQ(compute::kernel_times(folder()), before);

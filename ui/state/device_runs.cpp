@@ -40,21 +40,24 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch)
 {
   if (reread_.exchange(false)) previous_.reset();
   auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get(), watch)); });
-  watch.begin("opening the device");
   if (reopen_.exchange(false)) context_.reset();
-  if (!context_) context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
-  compute::tell_of_compiling(*context_, [watch] { watch.begin("compiling kernels"); });
+  if (!context_) {
+    watch.begin("opening the device");
+    context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
+  }
+  std::optional<compute::TellOfCompiling> telling(std::in_place, *context_, [watch] { watch.begin("compiling kernels"); });
   if (watcher_.joinable()) { // the sources are read below: what changed until here is in this run
     const std::lock_guard lock(watching_);
     seen_ = compute::kernel_times(options_.kernels);
     changed_ = false;
   }
   previous_ = std::move(prepared);
-  if (preset.white == 0) previous_->preset.white = run::fitted_white(*previous_, *context_);
+  if (preset.white == 0) previous_->preset.white = run::fitted_white(*previous_, *context_, watch);
   auto plan = std::make_shared<plan::Plan>(*previous_->plan);
   std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan->notes);
+  watch.begin("setting up the run");
   auto job = measure::measured(run::make_job(*previous_, *context_), previous_->preset, reference);
-  compute::tell_of_compiling(*context_, [] {}); // what a job builds later is short
+  telling.reset(); // what a job builds later is short
   std::vector<std::any> seen;
   if (look_around_) seen = look_around_(preset, previous_->loaded);
   return {std::move(job), std::move(plan), std::move(reference), std::move(seen), context_->device(), previous_->preset.white};

@@ -85,12 +85,15 @@ bool RunInHand::loads_the_same() const
 /// The run of preset_.
 void RunInHand::begin()
 {
-  gesture_lasts_ = kernels_changed_ = shown_since_start_ = false;
+  const bool ends_preparation = reads_anew_ || kernels_changed_ || !loads_the_same();
+  std::stop_source preparing_before = preparing_;
+  if (ends_preparation) preparing_ = {};
+  gesture_lasts_ = kernels_changed_ = reads_anew_ = shown_since_start_ = false;
   parts_since_.reset();
-  if (!loads_the_same()) preparing_.request_stop();
   arrival_ = std::make_shared<Arrival>();
   arrival_->preset = preset_;
   before_start_ = worker_.start(maker());
+  if (ends_preparation) preparing_before.request_stop(); // now: the worker knows that it is replaced
   status_ = worker_.status();
 }
 

@@ -68,6 +68,7 @@ public:
   void start_with_new_files(const UndoStack& edits)
   {
     source_.reread_files();
+    reads_anew_ = true;
     start(edits);
   }
   /// The preset was edited: the run follows with the next start_if_wanted(). live: the gesture still lasts.
@@ -141,6 +142,7 @@ private:
   bool lent_ = false;              ///< to a preset that is not the present one
   bool restart_wanted_ = false;    ///< the preset changed since the last start
   bool kernels_changed_ = false;   ///< ... or the kernels
+  bool reads_anew_ = false;        ///< ... or files that it names
   bool gesture_lasts_ = false;     ///< ... by a gesture that goes on
   bool shown_since_start_ = false; ///< a snapshot of the run in hand has come
   bool snapshot_is_current_ = false;

@@ -62,6 +62,7 @@ public:
       eye_.look(camera, world_.seed, 0, {first_paths, path, path}, -1, first.glass, 0, count);
       gather(first_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, first.rounds, first.glass, 0, count);
     }
+    world_.context.finish();
     return true;
   }
 
