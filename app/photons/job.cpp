@@ -78,6 +78,7 @@ public:
     if (context.is_cold()) {
       for (const TimedStage& s : stages_) s.stage->warm_up();
       world_.energy.fill_zero();
+      world_.context.finish(); // a run that never comes to work must not end while kernels run
       context.set_warm();
     }
     // A run is over when no stage takes part any more.
