@@ -64,7 +64,7 @@ InversePlan make_plan(const preset::Preset& preset)
   plan.layers = 1;
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
   plan.passes = passes_of(settings(preset), l);
-  plan.buffers = {{"light on the facets (host)", sizeof(Incoming) * l.incoming.size(), true},
+  plan.buffers = {{"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming.size(), true},
                   {"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
                   {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
                   {"light on the frames (host)", 3 * sizeof(double) * l.cell_count() * l.frames.size(), true},

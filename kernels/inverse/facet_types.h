@@ -12,6 +12,10 @@ namespace nephroid::shared {
 // Light is counted in quanta: so many are what a facet sends at best. Sums do not depend on the order of their terms then.
 #define FACET_QUANTA 0x1p24f
 
+// A footprint is so many beams at most: 2^4.
+#define BEAMS 16
+#define INDEX_LEVELS 5
+
 typedef struct {
   float size_x, size_y; // of the object
   float facet_x, facet_y;
@@ -24,10 +28,16 @@ typedef struct {
   float steepest; // of a facet's gradient
   float usable;   // slope of light that falls straight on
   float sun_radius, scatter;
-  float index_variance;
   float spreads; // a lamp: one over its distance, as light sees it in the object; 0: parallel light
   int free_heights;
-  int padding;
+  // Of light with a band or a width: beams that stand for it.
+  float index_spread;                       // between the outermost indices
+  int index_levels;                         // level l has 2^l groups of indices
+  float index_over[2 * BEAMS - 1];          // over n: level after level
+  float index_within[INDEX_LEVELS];         // variance of the index that is left in the groups of a level
+  float disc[2 * BEAMS], coarse_disc[8];    // x and y of points
+  float left_of_disc, left_of_coarse_disc;  // of the variance, for each point
+  float piece_in_cells, wide_in_cells;
 } DeviceLayout;
 
 typedef struct {
@@ -44,7 +54,7 @@ typedef struct {
 } DeviceIncoming;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(DeviceLayout) == 88 && sizeof(DeviceReceiver) == 8 && sizeof(DeviceIncoming) == 40);
+static_assert(sizeof(DeviceLayout) == 408 && sizeof(DeviceReceiver) == 8 && sizeof(DeviceIncoming) == 40);
 } // namespace nephroid::shared
 #endif
 

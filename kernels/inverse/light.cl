@@ -13,8 +13,9 @@ __kernel void add_light(DeviceLayout own_layout, __global const DeviceReceiver* 
   const Beams beams = beams_of(&own_layout, &facet, slopes[index]);
   for (int j = 0; j < own_layout.receivers; ++j) {
     const Footprint print = footprint(&own_layout, &facet, &beams, receivers[j].distance);
-    FOR_CELLS(print, own_layout.cells_x, own_layout.cells_y)
-      add_exactly(light + cell_at(&own_layout, j, x, y), quanta_of(beams.power * part_on(print.x, x) * part_on(print.y, y)));
+    Tile tile;
+    FOR_CELLS(&own_layout, print, tile)
+      add_exactly(light + cell_at(&own_layout, j, x, y), quanta_of(beams.power * PART_ON(print, tile, x, y)));
   }
 }
 
@@ -34,8 +35,8 @@ static inline float along_lack(const DeviceLayout* layout, const Facet* facet, f
   const Beams beams = beams_of(layout, facet, slope);
   const Footprint print = footprint(layout, facet, &beams, distance);
   float sum = 0.0f;
-  FOR_CELLS(print, layout->cells_x, layout->cells_y)
-    sum += part_on(print.x, x) * part_on(print.y, y) * lack[cell_at(layout, receiver, x, y)];
+  Tile tile;
+  FOR_CELLS(layout, print, tile) sum += PART_ON(print, tile, x, y) * lack[cell_at(layout, receiver, x, y)];
   return beams.power * sum;
 }
 

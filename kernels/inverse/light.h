@@ -6,10 +6,6 @@
 #include "kernels/inverse/footprint.h"
 
 // Light and what follows from it: [receiver][cell].
-#define FOR_CELLS(print, cells_x, cells_y)                                                                                                 \
-  for (int y = first_cell((print).y, cells_y), y_end = end_of_cells((print).y, cells_y); y < y_end; ++y)                                  \
-    for (int x = first_cell((print).x, cells_x), x_end = end_of_cells((print).x, cells_x); x < x_end; ++x)
-
 static inline size_t cell_at(const DeviceLayout* layout, int receiver, int x, int y)
 {
   return ((size_t)receiver * (size_t)layout->cells_y + (size_t)y) * (size_t)layout->cells_x + (size_t)x;

@@ -31,8 +31,7 @@ typedef struct {
 } Search;
 
 
-// What the weighted squares would change by, were the facet's light put back with these beams. Beams that may touch the light that is taken
-// away are close to it.
+// What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this slope.
 static inline float score(const Search* s, float2 slope)
 {
   const DeviceLayout* layout = s->layout;
@@ -45,12 +44,14 @@ static inline float score(const Search* s, float2 slope)
   for (int j = 0; j < layout->receivers; ++j) {
     const float distance = s->receivers[j].distance, weight = s->receivers[j].weight;
     const Footprint print = footprint(layout, &s->facet, &beams, distance), own = footprint(layout, &s->facet, &s->now, distance);
-    const bool near = fabs(print.x.middle - own.x.middle) < print.x.reach + own.x.reach + 1.0f &&
-                      fabs(print.y.middle - own.y.middle) < print.y.reach + own.y.reach + 1.0f;
-    FOR_CELLS(print, layout->cells_x, layout->cells_y) {
-      const float light = beams.power * part_on(print.x, x) * part_on(print.y, y);
+    const int4 a = cells_of(layout, &print), b = cells_of(layout, &own);
+    const bool near = a.x < b.z && b.x < a.z && a.y < b.w && b.y < a.w;
+    Tile tile, own_tile;
+    FOR_CELLS(layout, print, tile) {
+      if (near && x == at.x && y == at.y) fill_tile(layout, &own, at.xy, own_tile);
+      const float light = beams.power * PART_ON(print, tile, x, y);
       float there = s->lack[cell_at(layout, j, x, y)] + weight * light;
-      if (near) there -= 2.0f * weight * s->now.power * part_on(own.x, x) * part_on(own.y, y);
+      if (near) there -= 2.0f * weight * s->now.power * PART_ON(own, own_tile, x, y);
       sum += light * there;
     }
   }
@@ -245,13 +246,17 @@ __kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global con
 
 static inline void claim_cells(const DeviceLayout* layout, const Footprint* print, int receiver, global uint* claims, uint key)
 {
-  FOR_CELLS(*print, layout->cells_x, layout->cells_y) atomic_min(claims + cell_at(layout, receiver, x, y), key);
+  const int4 box = cells_of(layout, print);
+  for (int y = box.y; y < box.w; ++y)
+    for (int x = box.x; x < box.z; ++x) atomic_min(claims + cell_at(layout, receiver, x, y), key);
 }
 
 static inline bool holds_cells(const DeviceLayout* layout, const Footprint* print, int receiver, global const uint* claims, uint key)
 {
-  FOR_CELLS(*print, layout->cells_x, layout->cells_y)
-    if (claims[cell_at(layout, receiver, x, y)] != key) return false;
+  const int4 box = cells_of(layout, print);
+  for (int y = box.y; y < box.w; ++y)
+    for (int x = box.x; x < box.z; ++x)
+      if (claims[cell_at(layout, receiver, x, y)] != key) return false;
   return true;
 }
 
@@ -286,8 +291,9 @@ __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, ui
 
 static inline void move_light(const DeviceLayout* layout, const Footprint* print, float power, int receiver, global long* light)
 {
-  FOR_CELLS(*print, layout->cells_x, layout->cells_y) {
-    const long quanta = quanta_of(fabs(power) * part_on(print->x, x) * part_on(print->y, y));
+  Tile tile;
+  FOR_CELLS(layout, *print, tile) {
+    const long quanta = quanta_of(fabs(power) * PART_ON(*print, tile, x, y));
     light[cell_at(layout, receiver, x, y)] += power < 0.0f ? -quanta : quanta;
   }
 }
@@ -295,7 +301,9 @@ static inline void move_light(const DeviceLayout* layout, const Footprint* print
 static inline void note_lack(const DeviceLayout* layout, const Footprint* print, float weight, int receiver, global const long* light,
                              global const float* wanted, global float* lack)
 {
-  FOR_CELLS(*print, layout->cells_x, layout->cells_y) {
+  const int4 box = cells_of(layout, print);
+  for (int y = box.y; y < box.w; ++y)
+    for (int x = box.x; x < box.z; ++x) {
     const size_t cell = cell_at(layout, receiver, x, y);
     lack[cell] = lack_of(light[cell], wanted[cell], weight);
   }

@@ -14,8 +14,8 @@
 
 namespace nephroid::inverse {
 Assignment::Assignment(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
-    : layout_(layout), targets_(targets), seed_(seed), weights_(picture_weights(layout, targets)), heights_(layout.facet_count()),
-      facets_(context, layout, targets, weights_)
+    : given_(layout), layout_(layout), targets_(targets), seed_(seed), weights_(picture_weights(layout, targets)),
+      heights_(layout.facet_count()), facets_(context, layout, targets, weights_)
 {
   std::mt19937_64 random(seed_);
   const double last = layout.distances.back();
@@ -25,13 +25,15 @@ Assignment::Assignment(const compute::Context& context, const Layout& layout, co
     slopes[i] = nearest_reachable((to - layout.middle(i)) / last, layout.n, layout.sines_on(i), layout.steepest);
   }
   put(slopes);
-  if (layout_.free_heights) raise();
+  settle();
   residual_ = residual();
   begin_sweep();
 }
 
 void Assignment::relight()
 {
+  layout_.distances = given_.distances;
+  layout_.weights = given_.weights;
   weights_ = picture_weights(layout_, targets_);
   facets_.aim(layout_, targets_, weights_);
   put(std::vector(slopes()));
@@ -57,11 +59,16 @@ void Assignment::put(const std::vector<glm::dvec2>& slopes)
   forget();
 }
 
-/// Facets stand where their walls are lowest for the slopes that they have; their light falls from there.
-void Assignment::raise()
+/// Free heights stand where walls are lowest for the slopes that facets have; their light falls from there. Facets in one plane see their
+/// neighbours as these are now, in whose shadows they lie.
+void Assignment::settle()
 {
+  if (!layout_.free_heights && layout_.incoming.empty()) return;
   const std::vector<glm::dvec2> now = slopes();
-  heights_ = heights_of(layout_, now);
+  if (layout_.free_heights) heights_ = heights_of(layout_, now);
+  for (std::size_t i = 0; i < layout_.incoming.size(); ++i)
+    layout_.incoming[i].around = facet_gradient(now[i], layout_.n, layout_.incoming[i].sines);
+  facets_.set_incoming(layout_);
   put(now);
 }
 
@@ -96,7 +103,7 @@ void Assignment::refine()
   tried_ += layout_.facet_count();
   if (!refinement_->finished()) return;
   ++sweeps_;
-  if (layout_.free_heights) raise();
+  settle();
 }
 
 void Assignment::advance()
@@ -110,7 +117,7 @@ void Assignment::advance()
   if (next_ < layout_.facet_count()) return;
   next_ = 0;
   ++sweeps_;
-  if (layout_.free_heights) raise();
+  settle();
   const double before = std::exchange(residual_, residual());
   constexpr double worth_a_sweep = 0.005; // a sweep that lowers the sum of squares by a smaller part of it is the last
   if (residual_ > (1 - worth_a_sweep) * before) {
@@ -142,6 +149,10 @@ void Assignment::state(State& state)
   state.value(residual_);
   facets_.state(state);
   if (layout_.free_heights) state.items(heights_);
+  for (Incoming& in : layout_.incoming) {
+    state.value(in.around.x);
+    state.value(in.around.y);
+  }
   state.value(converged_);
   bool refines = refinement_.has_value();
   state.value(refines);
@@ -149,6 +160,7 @@ void Assignment::state(State& state)
   if (refines && state.is_read()) refinement_.emplace(layout_, targets_, weights_, heights_);
   if (refines) refinement_->state(state);
   if (!state.is_read()) return;
+  facets_.set_incoming(layout_);
   forget();
   begin_sweep();
 }

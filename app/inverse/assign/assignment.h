@@ -43,14 +43,15 @@ public:
 
 private:
   void begin_sweep();
-  void raise();
+  void settle();
   void put(const std::vector<glm::dvec2>& slopes);
   void refine();
   double smoothing_weight() const;
   const std::vector<std::vector<double>>& all_light() const;
   void forget();
 
-  const Layout& layout_;
+  const Layout& given_;
+  Layout layout_; ///< the same, but that facets see their neighbours as they are
   const std::vector<Target>& targets_;
   std::uint64_t seed_;
   std::vector<double> weights_;

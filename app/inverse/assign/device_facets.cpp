@@ -7,6 +7,8 @@
 #include <string>
 
 namespace nephroid::inverse {
+static_assert(BEAMS == Beams::most);
+
 namespace {
 
 using Pair = std::array<float, 2>;
@@ -35,23 +37,6 @@ std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span
   return receivers;
 }
 
-std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
-{
-  std::vector<shared::DeviceIncoming> incoming;
-  incoming.reserve(layout.incoming.size());
-  for (const Incoming& in : layout.incoming) {
-    shared::DeviceIncoming made{};
-    for (int i = 0; i < 2; ++i) {
-      made.sines[i] = static_cast<float>(in.sines[i]);
-      made.around[i] = static_cast<float>(in.around[i]);
-      for (int k = 0; k < 2; ++k) made.spread[2 * i + k] = static_cast<float>(in.spread[i][k]);
-    }
-    made.power = static_cast<float>(in.power);
-    incoming.push_back(made);
-  }
-  return incoming;
-}
-
 /// In facets.
 std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& targets)
 {
@@ -71,30 +56,68 @@ std::size_t rimmed_cells(const Layout& l)
 shared::DeviceLayout device_layout(const Layout& l)
 {
   const auto number = [](double value) { return static_cast<float>(value); };
-  double index_variance = 0;
-  for (const double n : l.indices) index_variance += (n - l.n) * (n - l.n) / static_cast<double>(l.indices.size());
-  return {.size_x = number(l.size.x),
-          .size_y = number(l.size.y),
-          .facet_x = number(l.facet().x),
-          .facet_y = number(l.facet().y),
-          .receiver_x = number(l.receiver.x),
-          .receiver_y = number(l.receiver.y),
-          .cell_x = number(l.cell().x),
-          .cell_y = number(l.cell().y),
-          .columns = l.facets.x,
-          .rows = l.facets.y,
-          .cells_x = l.cells.x,
-          .cells_y = l.cells.y,
-          .receivers = static_cast<int>(l.distances.size()),
-          .n = number(l.n),
-          .steepest = number(l.steepest),
-          .usable = number(usable_slope(l)),
-          .sun_radius = number(l.sun_radius),
-          .scatter = number(l.scatter),
-          .index_variance = number(index_variance),
-          .spreads = l.lamp ? number(1 / (l.lamp->z - l.thickness + l.thickness / l.n)) : 0,
-          .free_heights = l.free_heights,
-          .padding = 0};
+  shared::DeviceLayout made{.size_x = number(l.size.x),
+                            .size_y = number(l.size.y),
+                            .facet_x = number(l.facet().x),
+                            .facet_y = number(l.facet().y),
+                            .receiver_x = number(l.receiver.x),
+                            .receiver_y = number(l.receiver.y),
+                            .cell_x = number(l.cell().x),
+                            .cell_y = number(l.cell().y),
+                            .columns = l.facets.x,
+                            .rows = l.facets.y,
+                            .cells_x = l.cells.x,
+                            .cells_y = l.cells.y,
+                            .receivers = static_cast<int>(l.distances.size()),
+                            .n = number(l.n),
+                            .steepest = number(l.steepest),
+                            .usable = number(usable_slope(l)),
+                            .sun_radius = number(l.sun_radius),
+                            .scatter = number(l.scatter),
+                            .spreads = l.lamp ? number(1 / (l.lamp->z - l.thickness + l.thickness / l.n)) : 0,
+                            .free_heights = l.free_heights,
+                            .index_spread = l.indices.empty() ? 0 : number(std::abs(l.indices.back() - l.indices.front())),
+                            .index_levels = 1,
+                            .index_over = {},
+                            .index_within = {},
+                            .disc = {},
+                            .coarse_disc = {},
+                            .left_of_disc = number(left_of_disc(BEAMS)),
+                            .left_of_coarse_disc = number(left_of_disc(4)),
+                            .piece_in_cells = number(piece_in_cells),
+                            .wide_in_cells = number(wide_in_cells)};
+  for (int level = 0; level < INDEX_LEVELS && (1 << level) <= static_cast<int>(l.indices.size()); ++level) {
+    const IndexGroups groups = index_groups(l, 1 << level);
+    std::transform(groups.over.begin(), groups.over.end(), made.index_over + (1 << level) - 1, number);
+    made.index_within[level] = number(groups.within);
+    made.index_levels = level + 1;
+  }
+  const auto put_points = [&](int count, float* to) {
+    for (const glm::dvec2& p : disc_points(count)) {
+      *to++ = number(p.x);
+      *to++ = number(p.y);
+    }
+  };
+  put_points(BEAMS, made.disc);
+  put_points(4, made.coarse_disc);
+  return made;
+}
+
+std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
+{
+  std::vector<shared::DeviceIncoming> incoming;
+  incoming.reserve(layout.incoming.size());
+  for (const Incoming& in : layout.incoming) {
+    shared::DeviceIncoming made{};
+    for (int i = 0; i < 2; ++i) {
+      made.sines[i] = static_cast<float>(in.sines[i]);
+      made.around[i] = static_cast<float>(in.around[i]);
+      for (int k = 0; k < 2; ++k) made.spread[2 * i + k] = static_cast<float>(in.spread[i][k]);
+    }
+    made.power = static_cast<float>(in.power);
+    incoming.push_back(made);
+  }
+  return incoming;
 }
 
 DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets,
@@ -111,7 +134,7 @@ DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout
 {
   const bool smooths = layout.smoothing > 0;
   const compute::Defines defines{{"NEPHROID_INCOMING", layout.incoming.empty() ? "0" : "1"},
-                                 {"NEPHROID_SPREAD", layout.sun_radius > 0 || !layout.indices.empty() ? "1" : "0"},
+                                 {"NEPHROID_SPREAD", layout.sun_radius > 0 || layout.scatter > 0 || !layout.indices.empty() ? "1" : "0"},
                                  {"NEPHROID_SMOOTHS", smooths ? "1" : "0"}};
   const compute::Program light(context, "inverse/light.cl", defines), search(context, "inverse/search.cl", defines);
   add_light_ = light.kernel("add_light");

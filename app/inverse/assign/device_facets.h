@@ -17,6 +17,8 @@ namespace nephroid::inverse {
 /// As kernels want it.
 shared::DeviceLayout device_layout(const Layout& layout);
 
+std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout);
+
 class DeviceFacets {
 public:
   /// At most so many facets look for slopes at once: a claim has 12 bits for them (search.cl).
@@ -27,6 +29,9 @@ public:
 
   /// Other distances, targets and weights.
   void aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
+
+  /// Light on the facets, and their neighbours as they are now.
+  void set_incoming(const Layout& layout) { incoming_.write(incoming_of(layout)); }
 
   /// Puts all facets' light on the receivers. heights: of their middles.
   void put(const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights);
