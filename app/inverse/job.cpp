@@ -186,7 +186,7 @@ private:
   void begin_judging()
   {
     solid_ = std::make_shared<const Solid>(method_->solid());
-    judge_.emplace(layout_, *solid_, preset_.seed);
+    judge_.emplace(context_, layout_, *solid_, preset_.seed);
     conflict_known_ = false;
   }
 

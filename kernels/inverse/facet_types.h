@@ -53,7 +53,48 @@ typedef struct {
   int padding;
 } DeviceIncoming;
 
+// Of a triangle of the solid: inverse::Part.
+#define PART_FACET 0
+#define PART_WALL 1
+#define PART_SIDE 2
+#define PART_FRONT 3
+
+// A ray's light is counted in quanta: so many are what falls on a facet.
+#define RAY_QUANTA 0x1p32f
+
+// Where the light goes that falls on the front: inverse::Fates. Sums are kept in many places, so that rays seldom meet there.
+#define FATE_REFLECTED 0
+#define FATE_LOST 1
+#define FATE_SENT 2
+#define FATE_BY_WALLS 3
+#define FATES 4
+#define FATE_SUMS 256
+
+// The judge's light: what falls on the front, and the screens behind the object.
+typedef struct {
+  float4 direction; // of parallel light
+  float4 lamp;
+  float lamp_weight; // weight of a ray over the cosine and one over the squared distance; 0: parallel light
+  float n, sun_radius, scatter;
+  float size_x, size_y, facet_x, facet_y, thickness;
+  float receiver_x, receiver_y, cell_x, cell_y;
+  int columns, along; // facets of a row; rays along one side of a facet
+  int cells_x, cells_y, screens;
+  int index_count;
+  int padding;
+} DeviceFront;
+
+// A ray's way out of the object.
+typedef struct {
+  float4 from, direction;
+  float part; // of its light; 0: lost
+  float reflected;
+  int met_wall;
+  int padding;
+} DeviceWayOut;
+
 #ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(DeviceFront) == 112 && sizeof(DeviceWayOut) == 48);
 static_assert(sizeof(DeviceLayout) == 408 && sizeof(DeviceReceiver) == 8 && sizeof(DeviceIncoming) == 40);
 } // namespace nephroid::shared
 #endif
