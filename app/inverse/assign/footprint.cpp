@@ -94,17 +94,16 @@ void part_colours(const Layout& layout, const glm::dvec2& by_index, double longe
   blur.variance += within * by_index * by_index;
 }
 
-/// Each beam becomes `points`, evenly spread over a disc, four at a time to four sides (a sunflower's golden angle between the fours).
+/// Each beam becomes 8 or 4, on a circle, and what is left of the variance is a box about each. Between the axes 8 with such boxes are
+/// next to a disc: as seen in cells 0.5 to 1.2 of which are its radius, 0.002 to 0.02 of it is elsewhere; a box alone is 0.01 to 0.1 off.
 /// spread: a variance of 1 becomes that of the blur.
 void part_disc(const glm::dmat2& spread, int points, Blur& blur)
 {
-  const double left = points > 4 ? 0.1 : 0.2; // of the variance, for a box about each point
-  constexpr double golden_angle = 2.399963229728653;
+  const double left = points == 8 ? 0.22 : 0.27, r = std::sqrt(2 * (1 - left)), first = points == 8 ? 1.0 / 16 : 1.0 / 6;
   for (int k = blur.count - 1; k >= 0; --k) {
     const glm::dvec2 middle = blur.shifts[static_cast<std::size_t>(k)];
-    for (int i = 0; i < points; ++i) { // of a disc of variance 1, whose radius is 2
-      const double r = 2 * std::sqrt((1 - left) * (i / 4 + 0.5) / (points / 4)),
-                   phi = i / 4 * golden_angle + i % 4 * glm::half_pi<double>();
+    for (int i = 0; i < points; ++i) {
+      const double phi = 2 * glm::pi<double>() * (first + static_cast<double>(i) / points);
       blur.shifts[static_cast<std::size_t>(points * k + i)] = middle + spread * (r * glm::dvec2(std::cos(phi), std::sin(phi)));
     }
   }
@@ -130,7 +129,7 @@ Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, 
     root[0][0] = std::sqrt(both[0][0]);
     root[0][1] = both[0][1] / root[0][0];
     root[1][1] = std::sqrt(std::max(0.0, both[1][1] - root[0][1] * root[0][1]));
-    part_disc(root, blur.count == 1 ? Beams::most : 4, blur);
+    part_disc(root, blur.count == 1 ? 8 : 4, blur);
   } else
     blur.variance += glm::dvec2(both[0][0], both[1][1]);
   return blur;

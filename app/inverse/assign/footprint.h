@@ -32,7 +32,7 @@ struct Beams {
 /// its middle: a parallelogram, smaller along the slope than the facet; a lamp's light has another slope at each p. Its shadow along x and
 /// along y is exact; that both hang together off the axes is not kept. A band of wavelengths is a line along the change of the slope with
 /// the index: as many beams as it takes for the rest of each to be short beside a cell. The sun's disc and roughness, where they are wide
-/// beside a cell, are 16 beams, 4 where the light has a band. What is left of a blur is a box along each axis with its variance. height:
+/// beside a cell, are 8 beams, 4 where the light has a band. What is left of a blur is a box along each axis with its variance. height:
 /// z of the facet's middle, from where its light has further to go.
 Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height = 0);
 
