@@ -15,6 +15,8 @@ namespace nephroid::shared {
 // A footprint is so many beams at most: 2^4.
 #define BEAMS 16
 #define INDEX_LEVELS 5
+// Of light of one wavelength and a width.
+#define DISC_BEAMS 8
 
 typedef struct {
   float size_x, size_y; // of the object
@@ -35,7 +37,7 @@ typedef struct {
   int index_levels;                         // level l has 2^l groups of indices
   float index_over[2 * BEAMS - 1];          // over n: level after level
   float index_within[INDEX_LEVELS];         // variance of the index that is left in the groups of a level
-  float disc[2 * BEAMS], coarse_disc[8];    // x and y of points
+  float disc[2 * DISC_BEAMS], coarse_disc[8];    // x and y of points
   float left_of_disc, left_of_coarse_disc;  // of the variance, for each point
   float piece_in_cells, wide_in_cells;
 } DeviceLayout;
@@ -95,7 +97,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceFront) == 112 && sizeof(DeviceWayOut) == 48);
-static_assert(sizeof(DeviceLayout) == 408 && sizeof(DeviceReceiver) == 8 && sizeof(DeviceIncoming) == 40);
+static_assert(sizeof(DeviceLayout) == 344 && sizeof(DeviceReceiver) == 8 && sizeof(DeviceIncoming) == 40);
 } // namespace nephroid::shared
 #endif
 

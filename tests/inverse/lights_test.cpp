@@ -214,6 +214,50 @@ TEST(Lights, ABandOfWavelengthsPartsAlongTheSlope)
   EXPECT_LT(variance(false), 0.1 * variance(true));
 }
 
+/// The judge's cells beside the footprint's, over what the judge's have: a root mean square.
+double apart(const Layout& layout, const glm::dvec2& slope)
+{
+  const Solid solid = make_solid(layout, {slope});
+  Judge judge(test::shared_context(), layout, solid, 1);
+  while (!judge.finished()) judge.advance();
+  std::vector<double> rays = judge.light(0);
+  const double all = std::accumulate(rays.begin(), rays.end(), 0.0);
+  double norm = 0, squares = 0;
+  for (double& value : rays) norm += std::pow(value /= all, 2);
+  for_cells(layout, footprint(layout, 0, slope, 0), [&](std::size_t cell, double part) { rays[cell] -= part; });
+  for (const double value : rays) squares += value * value;
+  return std::sqrt(squares / norm);
+}
+
+// Colours and the sun's disc cell by cell, a facet and its blur being about a cell. As one box of its variance, which a band's line is not,
+// the band is 0.39 off.
+TEST(Lights, ABlurIsWhereRaysAre)
+{
+  Layout layout{.size = {1, 1}, .facets = {1, 1}, .receiver = {60, 60}, .cells = {60, 60}, .distances = {100}};
+  for (int i = 0; i < 16; ++i) layout.indices.push_back(1.5 + 0.04 * ((i + 0.5) / 16 - 0.5));
+  EXPECT_LT(apart(layout, {0.15, 0.12}), 0.02);
+  layout.indices.clear();
+  layout.sun_radius = 0.012;
+  EXPECT_LT(apart(layout, {0.15, 0.12}), 0.05);
+}
+
+// Two facets in light from the left: the right one lies in the shadow of the left one, as much as that is seen to fall towards it, less
+// where it rises instead. In straight lines: t (g + h) / 2 of the width, t being the light's slope inside.
+TEST(Lights, AFacetLiesInItsNeighboursShadow)
+{
+  Layout layout{.size = {2, 1}, .thickness = 0.1, .facets = {2, 1}, .distances = {100}};
+  layout = with(layout, tilted(20, 0));
+  const glm::dvec2 slope = inverse::flat_slope(layout.sines), inside = inverse::slope_inside(layout.sines, layout.n);
+  const auto power = [&](const glm::dvec2& left) {
+    layout.incoming[0].around = left;
+    return facet_power(layout, 1, slope);
+  };
+  const double free = power({-0.4, 0});
+  EXPECT_NEAR(power({0.4, 0}) / free, 1 - inside.x * 0.2, 1e-9);
+  EXPECT_NEAR(power({0.2, 0}) / free, 1 - inside.x * 0.1, 1e-9);
+  EXPECT_NEAR(power({0, 0.4}) / free, 1 - inside.x * 0.4 / 8, 1e-9); // half of the edge: a triangle, 0.2 high
+}
+
 TEST(Lights, ThatCannotBeAreRefused)
 {
   Layout layout{.distances = {100, 200}};

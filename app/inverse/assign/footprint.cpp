@@ -112,7 +112,7 @@ Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, 
     root[0][0] = std::sqrt(both[0][0]);
     root[0][1] = both[0][1] / root[0][0];
     root[1][1] = std::sqrt(std::max(0.0, both[1][1] - root[0][1] * root[0][1]));
-    part_disc(root, blur.count == 1 ? Beams::most : 4, blur);
+    part_disc(root, blur.count == 1 ? disc_beams : 4, blur);
   } else
     blur.variance += glm::dvec2(both[0][0], both[1][1]);
   return blur;
@@ -140,11 +140,10 @@ IndexGroups index_groups(const Layout& layout, int count)
 
 std::vector<glm::dvec2> disc_points(int count)
 {
-  constexpr double golden_angle = 2.399963229728653;
+  const double r = std::sqrt(2 * (1 - left_of_disc(count))), first = count == disc_beams ? 1.0 / 16 : 1.0 / 6;
   std::vector<glm::dvec2> points;
   for (int i = 0; i < count; ++i) {
-    const double r = 2 * std::sqrt((1 - left_of_disc(count)) * (i / 4 + 0.5) / (count / 4)),
-                 phi = i / 4 * golden_angle + i % 4 * glm::half_pi<double>();
+    const double phi = 2 * glm::pi<double>() * (first + static_cast<double>(i) / count);
     points.push_back(r * glm::dvec2(std::cos(phi), std::sin(phi)));
   }
   return points;
