@@ -51,7 +51,7 @@ std::string print_page(const Layout& layout, const std::vector<std::shared_ptr<c
   const double block = most.y + 3 * text_line, width = std::max(most.x, 90.0) + 2 * margin,
                height = layout.size.y + 5 * text_line + static_cast<double>(cast.size()) * block + 2 * margin;
   std::string page = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}mm\" height=\"{1:.6g}mm\" "
-                                 "viewBox=\"0 0 {0:.6g} {1:.6g}\" font-family=\"sans-serif\" font-size=\"4\">\n"
+                                 "viewBox=\"0 0 {0:.6g} {1:.6g}\" font-family=\"sans-serif\" font-size=\"3.5\">\n"
                                  "<rect width=\"{0:.6g}\" height=\"{1:.6g}\" fill=\"white\"/>\n",
                                  width, height);
   double y = margin;
@@ -66,8 +66,8 @@ std::string print_page(const Layout& layout, const std::vector<std::shared_ptr<c
   y += layout.size.y / 2 + text_line;
   for (std::size_t j = 0; j < cast.size(); ++j, y += block) {
     page += text(margin, y + text_line,
-                 fmt::format("Receiver {}: {:.6g} x {:.6g} mm, {:.6g} mm from the facets, and the object over it:", j + 1,
-                             layout.receiver.x, layout.receiver.y, layout.distances[j]));
+                 fmt::format("Receiver {}: {:.6g} x {:.6g} mm, {:.6g} mm from the facets (red: the object)", j + 1, layout.receiver.x,
+                             layout.receiver.y, layout.distances[j]));
     const glm::dvec2 middle(width / 2, y + 2 * text_line + most.y / 2), corner = middle - layout.receiver / 2.0;
     page += fmt::format("<image x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" preserveAspectRatio=\"none\" "
                         "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n",
