@@ -37,12 +37,13 @@ std::string material_of(const Settings& s, double n)
 }
 
 /// As the preset says. The layout and the targets outlive it.
-std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets)
+std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets,
+                                    const compute::Context& context)
 {
   const Settings& s = settings(preset);
   if (s.method == Settings::Method::thesis) return std::make_unique<Pipeline>(layout, targets, s.thesis, preset.seed);
   if (s.method == Settings::Method::lens) return std::make_unique<Lens>(layout, targets.front(), Place(preset.source) / "inverse");
-  return std::make_unique<Assignment>(layout, targets, preset.seed);
+  return std::make_unique<Assignment>(context, layout, targets, preset.seed);
 }
 
 struct CostRow {
@@ -52,8 +53,9 @@ struct CostRow {
 
 class InverseJob final : public job::Job {
 public:
-  InverseJob(const preset::Preset& preset, const InversePlan& plan)
-      : preset_(preset), layout_(plan.layout), targets_(plan.targets), method_(make_method(preset, layout_, targets_))
+  InverseJob(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context)
+      : context_(context), preset_(preset), layout_(plan.layout), targets_(plan.targets),
+        method_(make_method(preset, layout_, targets_, context))
   {
     note_step();
   }
@@ -187,8 +189,8 @@ private:
   void begin_judging()
   {
     solid_ = std::make_shared<const Solid>(method_->solid());
-    judge_.emplace(layout_, *solid_, preset_.seed);
-    if (settings(preset_).tolerances) tolerances_.emplace(layout_, targets_, *solid_, preset_.seed);
+    judge_.emplace(context_, layout_, *solid_, preset_.seed);
+    if (settings(preset_).tolerances) tolerances_.emplace(context_, layout_, targets_, *solid_, preset_.seed);
     conflict_known_ = false;
   }
 
@@ -353,6 +355,7 @@ private:
     double seconds = 0;
   };
 
+  compute::Context context_;
   preset::Preset preset_;
   Layout layout_;
   std::vector<Target> targets_;
@@ -370,9 +373,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan)
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context)
 {
-  return std::make_unique<InverseJob>(preset, plan);
+  return std::make_unique<InverseJob>(preset, plan, context);
 }
 
 } // namespace nephroid::inverse

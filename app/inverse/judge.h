@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law in double precision.
+// The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law, on the device (kernels/inverse/judge.cl).
 #pragma once
 #include "base/bytes.h"
+#include "compute/compute.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"
+#include "kernels/inverse/facet_types.h"
 #include "scene/bvh.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace nephroid::inverse {
 
@@ -25,17 +31,32 @@ struct WayOut {
   bool met_wall = false;
 };
 
-/// Follows a ray that starts in front of the object. Light is refracted, less Fresnel's reflectance; total reflection is followed. The
+struct Ray {
+  glm::dvec3 from{0}, direction{0, 0, -1};
+};
+
+/// Follows rays that start in front of the object. Light is refracted, less Fresnel's reflectance; total reflection is followed. The
 /// object's sides are black: a frame holds them, or a saw has left them rough.
-WayOut follow(const Solid& solid, const scene::Bvh& bvh, double n, glm::dvec3 from, glm::dvec3 direction);
+std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, double n, const std::vector<Ray>& rays);
+
+/// What kernels need of a solid.
+struct SolidOnDevice {
+  /// spreads: light has a width, or a band of wavelengths. Throws failed where the device has not enough memory.
+  SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads);
+
+  compute::Buffer<float> nodes, blocks;
+  compute::Buffer<shared::float4> normals; ///< of each triangle; w: its part
+  int root = 0;
+  std::optional<compute::Program> program; ///< inverse/judge.cl
+};
 
 /// Rays fall evenly on all facets, a jittered lattice on each. The same seed gives the same bits on any number of threads.
 class Judge {
 public:
-  /// layout and solid outlive it.
-  Judge(const Layout& layout, const Solid& solid, std::uint64_t seed);
+  /// layout outlives it. Throws as SolidOnDevice.
+  Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed);
 
-  void advance(); ///< a few rows of facets
+  void advance(); ///< a few rows of facets; light and fates are there once it has finished
   bool finished() const { return row_ >= layout_.facets.y; }
   double part() const { return static_cast<double>(row_) / layout_.facets.y; }
   const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; } ///< of each cell, in what falls on a facet
@@ -46,17 +67,19 @@ public:
   void state(State& state);
 
 private:
-  struct Row;
-  Row trace_row(int row) const;
+  void read_sums();
 
+  compute::Context context_;
   const Layout& layout_;
-  const Solid& solid_;
-  scene::Bvh bvh_;
-  std::uint64_t seed_;
+  SolidOnDevice solid_;
+  shared::uint2 seed_;
+  shared::DeviceFront front_{};
+  compute::Buffer<float> indices_, distances_; ///< distances of the screens: the receivers', then the frames'
+  compute::Buffer<std::int64_t> light_on_screens_, fates_;
+  compute::Kernel judge_;
   int row_ = 0;
-  Fates sum_;                              ///< of the rows so far, in facets
-  std::vector<double> screens_;            ///< distances: the receivers', then the frames'
-  std::vector<std::vector<double>> light_; ///< [screen][cell], in facets
+  Fates sum_;                              ///< in facets; of all rows
+  std::vector<std::vector<double>> light_; ///< [screen][cell], in facets; of all rows
 };
 
 } // namespace nephroid::inverse

@@ -110,5 +110,7 @@ struct LightRay {
   double weight = 1;
 };
 LightRay light_ray(const Layout& layout, const glm::dvec3& front);
+/// Of a lamp: that weight over the solid angle of a square millimetre of the front there.
+double lamp_weight(const Layout& layout);
 
 } // namespace nephroid::inverse

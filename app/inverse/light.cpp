@@ -168,7 +168,9 @@ LightRay light_ray(const Layout& layout, const glm::dvec3& front)
   if (!layout.lamp) return {glm::dvec3(layout.sines, -std::sqrt(1 - glm::dot(layout.sines, layout.sines))), 1};
   const glm::dvec3 way = front - *layout.lamp;
   const double length = glm::length(way), angle = -way.z / (length * length * length); // of a square millimetre
-  return {way / length, angle * layout.size.x * layout.size.y / solid_angle_of_front(layout)};
+  return {way / length, angle * lamp_weight(layout)};
 }
+
+double lamp_weight(const Layout& layout) { return layout.size.x * layout.size.y / solid_angle_of_front(layout); }
 
 } // namespace nephroid::inverse

@@ -66,8 +66,7 @@ InversePlan make_plan(const preset::Preset& preset)
   plan.passes = passes_of(settings(preset), l);
   plan.buffers = {{"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming.size(), true},
                   {"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
-                  {"what the pictures lack, for each of a batch (host)",
-                   settings(preset).method == Settings::Method::assign ? (1 + Assignment::batch) * lack_bytes(l) : 0, true},
+                  {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
                   {"light on the frames (host)", 3 * sizeof(double) * l.cell_count() * l.frames.size(), true},
                   {"the solid and its files (host)", solid_bytes * l.facet_count(), true}};
   if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)

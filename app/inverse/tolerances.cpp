@@ -56,8 +56,9 @@ Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t
   return solid;
 }
 
-Tolerances::Tolerances(const Layout& layout, const std::vector<Target>& targets, const Solid& solid, std::uint64_t seed)
-    : layout_(layout), targets_(targets), solid_(solid), seed_(seed)
+Tolerances::Tolerances(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
+                       std::uint64_t seed)
+    : context_(context), layout_(layout), targets_(targets), solid_(solid), seed_(seed)
 {
 }
 
@@ -76,7 +77,7 @@ void Tolerances::begin()
   for (double& distance : changed_layout_.distances) distance *= 1 + wrong.farther;
   changed_ = wrong.waves_mm > 0 ? with_waves(layout_, solid_, wrong.waves_mm, seed_) : solid_;
   if (wrong.turn_deg != 0) turn(glm::radians(wrong.turn_deg), changed_layout_, changed_);
-  judge_.emplace(changed_layout_, changed_, seed_);
+  judge_.emplace(context_, changed_layout_, changed_, seed_);
 }
 
 void Tolerances::advance()

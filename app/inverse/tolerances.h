@@ -13,7 +13,8 @@ namespace nephroid::inverse {
 class Tolerances {
 public:
   /// All of them outlive it.
-  Tolerances(const Layout& layout, const std::vector<Target>& targets, const Solid& solid, std::uint64_t seed);
+  Tolerances(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
+             std::uint64_t seed);
 
   /// A few rows of facets of the judge's.
   void advance();
@@ -31,6 +32,7 @@ public:
 private:
   void begin();
 
+  const compute::Context& context_;
   const Layout& layout_;
   const std::vector<Target>& targets_;
   const Solid& solid_;

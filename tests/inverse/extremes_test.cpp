@@ -39,7 +39,7 @@ job::Snapshot design(const Json& settings)
 {
   preset::Preset p;
   const inverse::InversePlan plan = plan_of(settings, p);
-  const auto job = inverse::make_job(p, plan);
+  const auto job = inverse::make_job(p, plan, test::shared_context());
   while (!job->finished()) job->step();
   return job->snapshot();
 }
@@ -57,7 +57,7 @@ Outcome same_picture_at(double factor)
   settings["size_mm"] = {100 * factor, 100 * factor};
   settings["thickness_mm"] = 10 * factor;
   for (Json& receiver : settings["receivers"]) receiver["distance_mm"] = receiver["distance_mm"].get<double>() * factor;
-  return near(judged(settings), judged(ring_and_disc()), 1e-4);
+  return near(judged(settings), judged(ring_and_disc()), 2e-3); // single precision finds other slopes
 }
 /// The traced mesh casts what the search believes.
 Outcome as_believed(const Json& settings, double tolerance)

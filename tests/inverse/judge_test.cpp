@@ -5,6 +5,8 @@
 #include "inverse/bending.h"
 #include "inverse/judge.h"
 #include "optics/fresnel.h"
+#include "tests/inverse/host_judge.h"
+#include "tests/support/render.h"
 #include "tests/support/test.h"
 
 namespace nephroid::judge_test {
@@ -14,20 +16,21 @@ using inverse::Layout;
 
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-void expect_all_light(const Fates& f) { EXPECT_NEAR(f.sent + f.reflected + f.lost, 1, 1e-10); }
+void expect_all_light(const Fates& f) { EXPECT_NEAR(f.sent + f.reflected + f.lost, 1, 1e-6); }
 
 // Light goes straight through a slab: both sides let 1 - ((n - 1) / (n + 1))^2 = 0.96 through, and every cell gets the same.
 TEST(Judge, SeesASlabAsAWindow)
 {
   Layout layout{.facets = {16, 16}, .cells = {8, 8}, .distances = {50, 500}};
   const Solid solid = make_solid(layout, std::vector<glm::dvec2>(256));
-  Judge judge(layout, solid, 1);
+  Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
-  EXPECT_NEAR(judge.fates().sent, 0.96 * 0.96, 1e-9);
+  EXPECT_NEAR(judge.fates().sent, 0.96 * 0.96, 1e-6);
   EXPECT_EQ(judge.fates().by_walls, 0);
   expect_all_light(judge.fates());
   for (const std::size_t receiver : {0u, 1u})
-    for (const double cell : judge.light(receiver)) EXPECT_NEAR(cell, 0.96 * 0.96 * 4, 1e-9); // 4 facets a cell
+    for (const double cell : judge.light(receiver))
+      EXPECT_NEAR(cell, 0.96 * 0.96 * 4, 1e-3); // 4 facets a cell; a ray at an edge may take the next one
 }
 
 TEST(Judge, FindsAFacetsSpotToAHundredthOfAMillimetre)
@@ -38,7 +41,7 @@ TEST(Judge, FindsAFacetsSpotToAHundredthOfAMillimetre)
       layout.n = n;
       const Solid solid = make_solid(layout, {slope});
       const glm::dvec2 at{0.3, -0.4};
-      const WayOut way = follow(solid, scene::build_bvh(solid.mesh), n, {at, 20}, {0, 0, -1});
+      const WayOut way = follow(test::shared_context(), solid, n, {{{at, 20}, {0, 0, -1}}}).front();
       const double z = glm::dot(inverse::facet_gradient(slope, n), at);
       const glm::dvec2 spot = glm::dvec2(way.from) - glm::dvec2(way.direction) / way.direction.z * (100 + way.from.z);
       EXPECT_NEAR(glm::length(spot - (at + slope * (100 + z))), 0, 0.01);
@@ -53,7 +56,7 @@ TEST(Judge, LooksBetweenReceiversToo)
   Layout layout{.size = {1, 1}, .facets = {1, 1}, .receiver = {80, 80}, .cells = {80, 80}, .distances = {100, 200}, .frames = {130, 170}};
   const glm::dvec2 slope{0.15, 0.1};
   const Solid solid = make_solid(layout, {slope});
-  Judge judge(layout, solid, 1);
+  Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
   for (const std::size_t i : {0u, 1u}) {
     glm::dvec2 mean(0);
@@ -74,9 +77,41 @@ TEST(Judge, MeetsAWallWhereItsShadowIs)
   const Solid solid = make_solid(layout, {{a, 0}, {-b, 0}});
   const double ga = std::abs(inverse::facet_gradient({a, 0}, 1.5).x), gb = std::abs(inverse::facet_gradient({b, 0}, 1.5).x);
   const double shadow = (gb - ga) / 2 / (1 / a - ga);
-  const scene::Bvh bvh = scene::build_bvh(solid.mesh);
   for (const double u : {0.02 * shadow, 0.5 * shadow, 0.98 * shadow, 1.02 * shadow, 2 * shadow, 0.9})
-    EXPECT_EQ(follow(solid, bvh, 1.5, {-u, 0.1, 20}, {0, 0, -1}).met_wall, u < shadow) << u / shadow;
+    EXPECT_EQ(follow(test::shared_context(), solid, 1.5, {{{-u, 0.1, 20}, {0, 0, -1}}}).front().met_wall, u < shadow) << u / shadow;
+}
+
+// Single precision against double, ray by ray, through facets, their walls and total reflections. A ray that comes closer to an edge than
+// rounding may take another way.
+TEST(Judge, FollowsRaysAsTheHostDoes)
+{
+  Layout layout{.facets = {20, 15}, .distances = {300}};
+  std::vector<glm::dvec2> slopes;
+  for (int i = 0; i < 300; ++i) slopes.push_back(0.6 * glm::dvec2(std::sin(3 * i), std::cos(5 * i)));
+  const Solid solid = make_solid(layout, slopes);
+  std::vector<Ray> rays;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 4000; ++i)
+    rays.push_back(
+        {{49 * uniform(random), 49 * uniform(random), 11}, glm::normalize(glm::dvec3(0.1 * uniform(random), 0.1 * uniform(random), -1))});
+  const std::vector<WayOut> ways = follow(test::shared_context(), solid, 1.5, rays);
+  const scene::Bvh bvh = scene::build_bvh(solid.mesh);
+  int others = 0, walls = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const WayOut truth = test::follow_on_host(solid, bvh, 1.5, rays[i].from, rays[i].direction);
+    walls += truth.met_wall;
+    if (ways[i].met_wall != truth.met_wall || std::abs(ways[i].part - truth.part) > 1e-4) {
+      ++others;
+      continue;
+    }
+    EXPECT_NEAR(ways[i].reflected, truth.reflected, 1e-4);
+    if (truth.part == 0) continue;
+    const auto spot = [](const WayOut& w) { return glm::dvec2(w.from) - glm::dvec2(w.direction) / w.direction.z * (300 + w.from.z); };
+    EXPECT_LT(glm::length(spot(ways[i]) - spot(truth)), 0.01 * std::max(1.0, glm::length(spot(truth)) / 300));
+  }
+  EXPECT_GT(walls, 20);
+  EXPECT_LT(others, 16);
 }
 
 TEST(Judge, AccountsForAllLight)
@@ -85,13 +120,13 @@ TEST(Judge, AccountsForAllLight)
   std::vector<glm::dvec2> slopes;
   for (int i = 0; i < 108; ++i) slopes.push_back(0.9 * glm::dvec2(std::sin(3 * i), std::cos(5 * i)));
   const Solid solid = make_solid(layout, slopes);
-  Judge judge(layout, solid, 1);
+  Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
   const Fates f = judge.fates();
   expect_all_light(f);
   EXPECT_GT(f.by_walls, 0.001);
   EXPECT_GT(f.lost, 0); // some walls throw light sideways
-  EXPECT_LE(total(judge.light(0)) / 108, f.sent + 1e-12);
+  EXPECT_LE(total(judge.light(0)) / 108, f.sent + 1e-6);
   EXPECT_GT(total(judge.light(0)) / 108, 0.8 * f.sent);
 }
 
@@ -106,7 +141,7 @@ TEST(Judge, BlursAsTheFootprintDoes)
                 .sun_radius = std::tan(0.265 * 3.141592653589793 / 180) * 3,
                 .scatter = 0.01};
   const Solid solid = make_solid(layout, {{0, 0}});
-  Judge judge(layout, solid, 1);
+  Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
   double variance = 0;
   for (std::size_t c = 0; c < 1600; ++c) variance += judge.light(0)[c] * std::pow((static_cast<double>(c % 40) - 19.5) * 0.5, 2);

@@ -55,7 +55,7 @@ TEST_F(InverseRun, CastsTheShapes)
   EXPECT_EQ(receivers[1].at("height_mm"), 100);
   for (const char* name : {"width_mm", "cost_all", "rel_l2", "missed", "believed_cost"}) EXPECT_TRUE(receivers[2].contains(name)) << name;
   const json light = all.at("light");
-  EXPECT_NEAR(light.at("sent").get<double>() + light.at("reflected").get<double>() + light.at("lost").get<double>(), 1, 1e-9);
+  EXPECT_NEAR(light.at("sent").get<double>() + light.at("reflected").get<double>() + light.at("lost").get<double>(), 1, 1e-6);
   EXPECT_THAT(bytes("out/cost.csv"), StartsWith("sweep,seconds,cost,cost_all,rel_l2,missed\n0,"));
   for (const char* file : {"receiver_3.exr", "target_1.png", "difference_2.png", "object.obj", "object.stl", "object.ply", "facets.json",
                            "heights.exr", "heights.png", "workshop.md"})
@@ -161,7 +161,7 @@ TEST_F(InverseRun, KeepsAWorkshopsConstraints)
   EXPECT_LE(figure(all, "object", "relief_mm"), 4 * (1 + 1e-9)); // twice the 2 mm between the middle's 10 and 8
   EXPECT_GT(figure(all, "object", "relief_mm"), 3.9);
   EXPECT_GE(figure(all, "object", "thinnest_mm"), 8 - 1e-9);
-  EXPECT_LE(figure(all, "object", "steepest_deg"), 33 + 1e-9);
+  EXPECT_LE(figure(all, "object", "steepest_deg"), 33 + 1e-5);
   EXPECT_LT(figure(all, "object", "wall_area_mm2"), 0.9 * figure(flat, "object", "wall_area_mm2"));
   EXPECT_NEAR(figure(all, "judged", "cost"), figure(all, "believed", "cost"), 0.02);
   EXPECT_NEAR(figure(all, "judged", "cost"), figure(flat, "judged", "cost"), 0.02);
@@ -199,7 +199,7 @@ TEST(InversePresets, AreDesignedAndJudged)
     inverse::settings(p).facets = {24, 24};
     p.stop.passes = 2;
     const inverse::InversePlan plan = inverse::make_plan(p);
-    const auto job = inverse::make_job(p, plan);
+    const auto job = inverse::make_job(p, plan, test::shared_context());
     const double before = job::scalar(job->snapshot(), "believed", "rel_l2");
     while (!job->finished()) job->step();
     const job::Snapshot made = job->snapshot();

@@ -3,6 +3,7 @@
 #pragma once
 #include "inverse/assign/assignment.h"
 #include "inverse/pictures/target.h"
+#include "tests/support/render.h"
 #include "tests/support/test.h"
 
 namespace nephroid::test {

@@ -5,6 +5,7 @@
 #include "inverse/print_page.h"
 #include "inverse/tolerances.h"
 #include "tests/inverse/sound.h"
+#include "tests/support/render.h"
 #include "tests/support/saved_jobs.h"
 
 #include <regex>
@@ -80,7 +81,7 @@ TEST(Draft, OfASlabIsAWindow)
 {
   const Layout layout = drafted({.facets = {16, 16}, .cells = {8, 8}, .distances = {50}}, 5);
   const Solid solid = make_solid(layout, std::vector<glm::dvec2>(256));
-  Judge judge(layout, solid, 1);
+  Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
   EXPECT_NEAR(judge.fates().sent, 0.96 * 0.96, 1e-6);
 }
@@ -130,7 +131,7 @@ TEST(Tolerances, OfASlabAreThoseOfAWindow)
   const Layout layout{.facets = {48, 48}, .cells = {20, 20}, .distances = {100}};
   const Solid solid = make_solid(layout, std::vector<glm::dvec2>(layout.facet_count()));
   const std::vector<Target> targets{Target(400, 1.0 / 400)};
-  Tolerances tolerances(layout, targets, solid, 1);
+  Tolerances tolerances(test::shared_context(), layout, targets, solid, 1);
   const auto rows = all_of(tolerances);
   ASSERT_THAT(rows, SizeIs(5));
   EXPECT_LT(rows[0].costs[0].rel_l2, rows[2].costs[0].rel_l2 / 5); // 1 um
@@ -145,7 +146,8 @@ TEST(Tolerances, GoOnWithTheSameFigures)
   const Layout layout{.facets = {24, 24}, .cells = {12, 12}, .distances = {80, 160}};
   const Solid solid = make_solid(layout, test::random_slopes(layout, 0.2, 1));
   const std::vector<Target> targets(2, Target(144, 1.0 / 144));
-  Tolerances whole(layout, targets, solid, 1), first(layout, targets, solid, 1), second(layout, targets, solid, 1);
+  Tolerances whole(test::shared_context(), layout, targets, solid, 1), first(test::shared_context(), layout, targets, solid, 1),
+      second(test::shared_context(), layout, targets, solid, 1);
   for (int i = 0; i < 17; ++i) first.advance();
   ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
   const auto is = all_of(second), expected = all_of(whole);

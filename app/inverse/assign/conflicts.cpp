@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/assign/slope_search.h"
+#include "inverse/assign/squares.h"
 
 #include <algorithm>
 #include <utility>

@@ -68,48 +68,31 @@ struct Blur {
   glm::dvec2 variance{0};
 };
 
-/// A line of indices is cut until its pieces, and a disc is points where it is wider, in parts of a cell.
-constexpr double piece_in_cells = 0.25, wide_in_cells = 0.5;
-
-/// Indices in groups of neighbours: the line between the outermost, cut into at most so many pieces.
+/// Indices in so many groups of neighbours that the line between the outermost is cut into pieces that are short beside a cell.
 void part_colours(const Layout& layout, const glm::dvec2& by_index, double longest, int most, Blur& blur)
 {
   const auto indices = static_cast<int>(layout.indices.size());
   const double length = glm::length(by_index) * std::abs(layout.indices.back() - layout.indices.front());
   int count = 1;
   while (2 * count <= std::min(most, indices) && length > longest * count) count *= 2;
-  double within = 0;
-  for (int k = 0; k < count; ++k) {
-    const int first = k * indices / count, last = (k + 1) * indices / count;
-    double mean = 0, square = 0;
-    for (int i = first; i < last; ++i) {
-      const double over = layout.indices[static_cast<std::size_t>(i)] - layout.n;
-      mean += over / (last - first);
-      square += over * over / (last - first);
-    }
-    blur.shifts[static_cast<std::size_t>(k)] = mean * by_index;
-    within += (square - mean * mean) / count;
-  }
+  const IndexGroups groups = index_groups(layout, count);
+  for (int k = 0; k < count; ++k) blur.shifts[static_cast<std::size_t>(k)] = groups.over[static_cast<std::size_t>(k)] * by_index;
   blur.count = count;
-  blur.variance += within * by_index * by_index;
+  blur.variance += groups.within * by_index * by_index;
 }
 
-/// Each beam becomes 8 or 4, on a circle, and what is left of the variance is a box about each. Between the axes 8 with such boxes are
-/// next to a disc: as seen in cells 0.5 to 1.2 of which are its radius, 0.002 to 0.02 of it is elsewhere; a box alone is 0.01 to 0.1 off.
-/// spread: a variance of 1 becomes that of the blur.
+/// Each beam becomes `points`. spread: a variance of 1 becomes that of the blur.
 void part_disc(const glm::dmat2& spread, int points, Blur& blur)
 {
-  const double left = points == 8 ? 0.22 : 0.27, r = std::sqrt(2 * (1 - left)), first = points == 8 ? 1.0 / 16 : 1.0 / 6;
+  const std::vector<glm::dvec2> disc = disc_points(points);
   for (int k = blur.count - 1; k >= 0; --k) {
     const glm::dvec2 middle = blur.shifts[static_cast<std::size_t>(k)];
-    for (int i = 0; i < points; ++i) {
-      const double phi = 2 * glm::pi<double>() * (first + static_cast<double>(i) / points);
-      blur.shifts[static_cast<std::size_t>(points * k + i)] = middle + spread * (r * glm::dvec2(std::cos(phi), std::sin(phi)));
-    }
+    for (int i = 0; i < points; ++i)
+      blur.shifts[static_cast<std::size_t>(points * k + i)] = middle + spread * disc[static_cast<std::size_t>(i)];
   }
   blur.count *= points;
   const glm::dvec2 x = glm::row(spread, 0), y = glm::row(spread, 1);
-  blur.variance += left * glm::dvec2(glm::dot(x, x), glm::dot(y, y));
+  blur.variance += left_of_disc(points) * glm::dvec2(glm::dot(x, x), glm::dot(y, y));
 }
 
 /// fine: a cell as a slope.
@@ -136,6 +119,35 @@ Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, 
 }
 
 } // namespace
+
+IndexGroups index_groups(const Layout& layout, int count)
+{
+  const auto indices = static_cast<int>(layout.indices.size());
+  IndexGroups groups;
+  for (int k = 0; k < count; ++k) {
+    const int first = k * indices / count, last = (k + 1) * indices / count;
+    double mean = 0, square = 0;
+    for (int i = first; i < last; ++i) {
+      const double over = layout.indices[static_cast<std::size_t>(i)] - layout.n;
+      mean += over / (last - first);
+      square += over * over / (last - first);
+    }
+    groups.over.push_back(mean);
+    groups.within += (square - mean * mean) / count;
+  }
+  return groups;
+}
+
+std::vector<glm::dvec2> disc_points(int count)
+{
+  const double r = std::sqrt(2 * (1 - left_of_disc(count))), first = count == 8 ? 1.0 / 16 : 1.0 / 6;
+  std::vector<glm::dvec2> points;
+  for (int i = 0; i < count; ++i) {
+    const double phi = 2 * glm::pi<double>() * (first + static_cast<double>(i) / count);
+    points.push_back(r * glm::dvec2(std::cos(phi), std::sin(phi)));
+  }
+  return points;
+}
 
 double part_before(const Beam& beam, double t)
 {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/assign/assignment.h"
+#include "inverse/assign/refinement.h"
 
 #include "base/parallel.h"
-#include "inverse/assign/footprint.h"
-#include "inverse/assign/slope_search.h"
+#include "inverse/assign/squares.h"
 #include "inverse/bending.h"
 
 #include <algorithm>
@@ -21,9 +20,6 @@ constexpr int most_tries = 6;
 constexpr double first_step = 0.05;
 /// A line's step is good where the sum falls by this part of what the gradient promises.
 constexpr double promise = 0.1;
-/// Over which the gradient is a difference, in cells.
-constexpr double difference = 1e-3;
-
 double dot(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b)
 {
   double sum = 0;
@@ -44,29 +40,6 @@ bool Refinement::finished() const { return stuck_ || done_ >= most_steps; }
 
 double Refinement::part() const { return static_cast<double>(done_) / static_cast<double>(most_steps); }
 
-void Refinement::find_gradient(const std::vector<glm::dvec2>& slopes, const std::vector<std::vector<double>>& light)
-{
-  const auto facets = static_cast<double>(slopes.size());
-  for_ranges(slopes.size(), 256, [&](std::size_t, Range range) {
-    for (std::size_t i = range.begin; i < range.end; ++i)
-      for (int axis = 0; axis < 2; ++axis) {
-        double sum = 0;
-        for (std::size_t j = 0; j < light.size(); ++j) {
-          const double h = difference * layout_.cell()[axis] / layout_.distances[j];
-          for (const double side : {-h, h}) {
-            glm::dvec2 slope = slopes[i];
-            slope[axis] += side;
-            double over = 0;
-            for_cells(layout_, footprint(layout_, i, slope, j, heights_[i]),
-                      [&](std::size_t cell, double part) { over += part * (light[j][cell] - facets * targets_[j][cell]); });
-            sum += weights_[j] * facet_power(layout_, i, slope) * over / side;
-          }
-        }
-        gradient_[i][axis] = sum;
-      }
-  });
-}
-
 /// The new direction, and how the sum changes along it.
 double Refinement::turn()
 {
@@ -78,33 +51,35 @@ double Refinement::turn()
   return -now;
 }
 
-void Refinement::advance(std::vector<glm::dvec2>& slopes, std::vector<std::vector<double>>& light)
+void Refinement::advance(DeviceFacets& facets)
 {
   ++done_;
-  find_gradient(slopes, light);
-  const double change = turn(), from = weighted_squares(targets_, weights_, light, slopes.size());
+  gradient_ = facets.gradient();
+  const std::vector<glm::dvec2> slopes = facets.slopes();
+  const double change = turn(), from = weighted_squares(targets_, weights_, facets.light(), slopes.size());
   if (step_ == 0) {
     const double length = std::sqrt(-change / static_cast<double>(slopes.size()));
     step_ = length > 0 ? first_step * layout_.cell().x / layout_.distances.back() / length : 0;
   }
   before_ = gradient_;
   std::vector<glm::dvec2> moved(slopes.size());
-  std::vector<std::vector<double>> there = light;
   for (int i = 0; i < most_tries; ++i) {
-    for (std::size_t k = 0; k < slopes.size(); ++k)
-      moved[k] = nearest_reachable(slopes[k] + step_ * direction_[k], layout_.n, layout_.sines_on(k), layout_.steepest);
-    light_all(layout_, moved, heights_, there);
+    for_ranges(slopes.size(), 4096, [&](std::size_t, Range range) {
+      for (std::size_t k = range.begin; k < range.end; ++k)
+        moved[k] = nearest_reachable(slopes[k] + step_ * direction_[k], layout_.n, layout_.sines_on(k), layout_.steepest);
+    });
+    facets.put(moved, heights_);
     // The parabola through both sums with the slope at the first: its lowest point is the next length.
-    const double to = weighted_squares(targets_, weights_, there, slopes.size()), bend = (to - from - step_ * change) / (step_ * step_);
+    const double to = weighted_squares(targets_, weights_, facets.light(), slopes.size()),
+                 bend = (to - from - step_ * change) / (step_ * step_);
     const double lowest = bend > 0 ? -change / (2 * bend) : 4 * step_;
     if (to < from + promise * step_ * change) {
       step_ = std::clamp(lowest, step_ / 4, 4 * step_);
-      slopes = std::move(moved);
-      light = std::move(there);
       return;
     }
     step_ = std::clamp(lowest, step_ / 10, step_ / 2);
   }
+  facets.put(slopes, heights_);
   stuck_ = true;
 }
 

@@ -3,7 +3,6 @@
 // once for all of them, and then each sums a few numbers along x.
 #include "inverse/assign/slope_search.h"
 
-#include "inverse/assign/cost.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 
@@ -16,9 +15,6 @@ namespace {
 
 /// At most so many points across: more cost time in every sweep and gain little, since each sweep has its lattice elsewhere.
 constexpr int most_points = 64;
-/// Refining takes so many steps of one length at most, and halves them until they are this part of a cell.
-constexpr int steps = 2;
-constexpr double finest = 0.125;
 
 /// Width of a flat facet's beam on a receiver; a lamp's light spreads.
 double flat_beam(const Layout& layout, std::size_t receiver, int axis)
@@ -45,38 +41,6 @@ struct SlopeSearch::Columns {
   std::vector<float> parts;  ///< [tap][point]
   std::vector<float> square; ///< sum of the parts' squares
 };
-
-std::uint64_t lack_bytes(const Layout& layout)
-{
-  std::uint64_t bytes = 0;
-  for (std::size_t j = 0; j < layout.distances.size(); ++j) {
-    const glm::ivec2 wide = layout.cells + 2 * rim_of(layout, j);
-    bytes += sizeof(float) * static_cast<std::uint64_t>(wide.x) * static_cast<std::uint64_t>(wide.y);
-  }
-  return bytes;
-}
-
-std::vector<double> picture_weights(const Layout& layout, const std::vector<Target>& targets)
-{
-  std::vector<double> weights;
-  for (std::size_t j = 0; j < targets.size(); ++j) {
-    const double most = *std::max_element(targets[j].begin(), targets[j].end()) * static_cast<double>(layout.facet_count());
-    weights.push_back((layout.weights.empty() ? 1 : layout.weights[j]) / (most * most));
-  }
-  return weights;
-}
-
-double weighted_squares(const std::vector<Target>& targets, std::span<const double> weights, const std::vector<std::vector<double>>& light,
-                        std::size_t facets)
-{
-  double sum = 0;
-  for (std::size_t j = 0; j < light.size(); ++j)
-    for (std::size_t c = 0; c < light[j].size(); ++c) {
-      const double over = light[j][c] - static_cast<double>(facets) * targets[j][c];
-      sum += weights[j] * over * over;
-    }
-  return sum;
-}
 
 SlopeSearch::SlopeSearch(const Layout& layout, std::span<const double> weights, const std::vector<double>& heights)
     : layout_(layout), weights_(weights.begin(), weights.end()), heights_(heights),
@@ -105,7 +69,7 @@ std::vector<Lack> SlopeSearch::lacks(const std::vector<Target>& targets, const s
 double SlopeSearch::point(int i, int axis) const
 {
   const double step = layout_.receiver[axis] / lattice_[axis];
-  return (i + offset_[axis]) * step - layout_.receiver[axis] / 2;
+  return (i + 0.5) * step - layout_.receiver[axis] / 2;
 }
 
 SlopeSearch::Columns SlopeSearch::columns(std::size_t receiver, double from, double height, int axis) const
@@ -158,7 +122,7 @@ void SlopeSearch::add_scores(std::size_t receiver, std::size_t facet, const Lack
   }
 }
 
-std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const Lack> lacks, const glm::dvec3& pull) const
+std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const Lack> lacks) const
 {
   const auto across = static_cast<std::size_t>(lattice_.x), down = static_cast<std::size_t>(lattice_.y);
   const glm::dvec2 from = layout_.middle(facet);
@@ -166,64 +130,19 @@ std::optional<glm::dvec2> SlopeSearch::best(std::size_t facet, std::span<const L
   for (std::size_t j = 0; j < lacks.size(); ++j) add_scores(j, facet, lacks[j], scores);
   const glm::dvec2 sines = layout_.sines_on(facet);
   const double last = layout_.distances.back() + heights_[facet];
-  const bool smooths = pull != glm::dvec3(0);
   float lowest = std::numeric_limits<float>::infinity();
   std::optional<glm::dvec2> found;
   for (std::size_t k = 0; k < down; ++k) {
     const double slope_y = (point(static_cast<int>(k), 1) - from.y) / last;
     for (std::size_t i = 0; i < across; ++i) {
-      if (!smooths && !(scores[k * across + i] < lowest)) continue;
+      if (!(scores[k * across + i] < lowest)) continue;
       const glm::dvec2 slope{(point(static_cast<int>(i), 0) - from.x) / last, slope_y};
       if (!reachable(slope, layout_.n, sines, layout_.steepest)) continue;
-      const float there = scores[k * across + i] - (smooths ? static_cast<float>(glm::dot(normal_of(layout_, facet, slope), pull)) : 0);
-      if (!(there < lowest)) continue;
-      lowest = there;
+      lowest = scores[k * across + i];
       found = slope;
     }
   }
   return found;
-}
-
-double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<const Lack> lacks, const glm::dvec3& pull) const
-{
-  const double power = facet_power(layout_, facet, slope);
-  double sum = pull != glm::dvec3(0) ? -glm::dot(normal_of(layout_, facet, slope), pull) : 0;
-  for (std::size_t j = 0; j < lacks.size(); ++j) {
-    const Footprint print = footprint(layout_, facet, slope, j, heights_[facet]);
-    const Lack& lack = lacks[j];
-    for (int k = 0; k < print.rows; ++k) {
-      const float* const row = lack.values.data() + index_at(print.x0 + lack.rim, print.y0 + k + lack.rim, lack.width);
-      const double* const parts = print.cells.data() + index_at(0, k, print.columns);
-      for (int i = 0; i < print.columns; ++i) {
-        const double a = power * parts[i];
-        sum += a * (row[i] + weights_[j] * a);
-      }
-    }
-  }
-  return sum;
-}
-
-glm::dvec2 SlopeSearch::refined(std::size_t facet, glm::dvec2 from, std::span<const Lack> lacks, const glm::dvec3& pull) const
-{
-  const glm::dvec2 sines = layout_.sines_on(facet);
-  glm::dvec2 step = layout_.receiver / glm::dvec2(lattice_) / layout_.distances.back();
-  double lowest = score(facet, from, lacks, pull);
-  while (step.x > finest * layout_.cell().x / layout_.distances.back()) {
-    step /= 2.0;
-    for (int i = 0; i < steps; ++i) {
-      const glm::dvec2 middle = from;
-      for (const glm::dvec2& side : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)}) {
-        const glm::dvec2 slope = middle + side * step;
-        if (!reachable(slope, layout_.n, sines, layout_.steepest)) continue;
-        if (const double there = score(facet, slope, lacks, pull); there < lowest) {
-          lowest = there;
-          from = slope;
-        }
-      }
-      if (from == middle) break;
-    }
-  }
-  return from;
 }
 
 } // namespace nephroid::inverse

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/assign/device_facets.h"
+
+#include "inverse/assign/footprint.h"
+
+#include <algorithm>
+#include <string>
+
+namespace nephroid::inverse {
+static_assert(BEAMS == Beams::most);
+
+namespace {
+
+using Pair = std::array<float, 2>;
+
+constexpr std::size_t group = 16;
+/// How often those of a batch that came into the way of others may try again.
+constexpr int turns = 6;
+/// A claim tells so many turns apart.
+constexpr std::uint32_t all_turns = 1u << 20;
+
+Pair pair_of(const glm::dvec2& v) { return {static_cast<float>(v.x), static_cast<float>(v.y)}; }
+
+std::vector<glm::dvec2> wide(const std::vector<Pair>& pairs)
+{
+  std::vector<glm::dvec2> values;
+  values.reserve(pairs.size());
+  for (const Pair& p : pairs) values.emplace_back(p[0], p[1]);
+  return values;
+}
+
+std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span<const double> weights)
+{
+  std::vector<shared::DeviceReceiver> receivers;
+  for (std::size_t j = 0; j < layout.distances.size(); ++j)
+    receivers.push_back({static_cast<float>(layout.distances[j]), static_cast<float>(weights[j])});
+  return receivers;
+}
+
+/// In facets.
+std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& targets)
+{
+  std::vector<float> wanted;
+  for (const Target& target : targets)
+    for (const double t : target) wanted.push_back(static_cast<float>(t * static_cast<double>(layout.facet_count())));
+  return wanted;
+}
+
+} // namespace
+
+std::size_t rimmed_cells(const Layout& l)
+{
+  return static_cast<std::size_t>(l.cells.x + 2) * static_cast<std::size_t>(l.cells.y + 2) * l.distances.size();
+}
+
+shared::DeviceLayout device_layout(const Layout& l)
+{
+  const auto number = [](double value) { return static_cast<float>(value); };
+  shared::DeviceLayout made{.size_x = number(l.size.x),
+                            .size_y = number(l.size.y),
+                            .facet_x = number(l.facet().x),
+                            .facet_y = number(l.facet().y),
+                            .receiver_x = number(l.receiver.x),
+                            .receiver_y = number(l.receiver.y),
+                            .cell_x = number(l.cell().x),
+                            .cell_y = number(l.cell().y),
+                            .columns = l.facets.x,
+                            .rows = l.facets.y,
+                            .cells_x = l.cells.x,
+                            .cells_y = l.cells.y,
+                            .receivers = static_cast<int>(l.distances.size()),
+                            .n = number(l.n),
+                            .steepest = number(l.steepest),
+                            .usable = number(usable_slope(l)),
+                            .sun_radius = number(l.sun_radius),
+                            .scatter = number(l.scatter),
+                            .spreads = l.lamp ? number(1 / (l.lamp->z - l.thickness + l.thickness / l.n)) : 0,
+                            .free_heights = l.free_heights,
+                            .index_spread = l.indices.empty() ? 0 : number(std::abs(l.indices.back() - l.indices.front())),
+                            .index_levels = 1,
+                            .index_over = {},
+                            .index_within = {},
+                            .disc = {},
+                            .coarse_disc = {},
+                            .left_of_disc = number(left_of_disc(DISC_POINTS)),
+                            .left_of_coarse_disc = number(left_of_disc(4)),
+                            .piece_in_cells = number(piece_in_cells),
+                            .wide_in_cells = number(wide_in_cells)};
+  for (int level = 0; level < INDEX_LEVELS && (1 << level) <= static_cast<int>(l.indices.size()); ++level) {
+    const IndexGroups groups = index_groups(l, 1 << level);
+    std::transform(groups.over.begin(), groups.over.end(), made.index_over + (1 << level) - 1, number);
+    made.index_within[level] = number(groups.within);
+    made.index_levels = level + 1;
+  }
+  const auto put_points = [&](int count, float* to) {
+    for (const glm::dvec2& p : disc_points(count)) {
+      *to++ = number(p.x);
+      *to++ = number(p.y);
+    }
+  };
+  put_points(DISC_POINTS, made.disc);
+  put_points(4, made.coarse_disc);
+  return made;
+}
+
+std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
+{
+  std::vector<shared::DeviceIncoming> incoming;
+  incoming.reserve(layout.incoming.size());
+  for (const Incoming& in : layout.incoming) {
+    shared::DeviceIncoming made{};
+    for (int i = 0; i < 2; ++i) {
+      made.sines[i] = static_cast<float>(in.sines[i]);
+      made.around[i] = static_cast<float>(in.around[i]);
+      for (int k = 0; k < 2; ++k) made.spread[2 * i + k] = static_cast<float>(in.spread[i][k]);
+    }
+    made.power = static_cast<float>(in.power);
+    incoming.push_back(made);
+  }
+  return incoming;
+}
+
+DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets,
+                           std::span<const double> weights)
+    : context_(context), layout_(device_layout(layout)), facets_(layout.facet_count()), cells_(layout.cell_count() * targets.size()),
+      rows_(static_cast<std::size_t>(layout.cells.y) * targets.size()), receivers_(context, "receivers", receivers_of(layout, weights)),
+      incoming_(context, "light on the facets", incoming_of(layout)), heights_(context, "facets' heights", facets_),
+      wanted_(context, "wanted light", wanted_of(layout, targets)), lack_(context, "lack of light", cells_),
+      along_y_(context, "lack of light along y", cells_),
+      smeared_(compute::zeroed<float>(context, "lack of light, smeared", rimmed_cells(layout))), slopes_(context, "slopes", facets_),
+      found_(context, "slopes found", most_in_a_batch), gradient_(context, "gradient", facets_),
+      light_(context, "light on the receivers", cells_), order_(context, "order of the facets", facets_),
+      claims_(context, "claims", cells_ + facets_), done_(context, "facets that have looked", most_in_a_batch)
+{
+  const bool smooths = layout.smoothing > 0;
+  const compute::Defines defines{{"NEPHROID_INCOMING", layout.incoming.empty() ? "0" : "1"},
+                                 {"NEPHROID_SPREAD", layout.sun_radius > 0 || layout.scatter > 0 || !layout.indices.empty() ? "1" : "0"},
+                                 {"NEPHROID_SMOOTHS", smooths ? "1" : "0"}};
+  const compute::Program light(context, "inverse/light.cl", defines), search(context, "inverse/search.cl", defines);
+  add_light_ = light.kernel("add_light");
+  find_lack_ = light.kernel("find_lack");
+  find_gradient_ = light.kernel("find_gradient");
+  smear_x_ = search.kernel("smear_x");
+  smear_y_ = search.kernel("smear_y");
+  look_ = search.kernel("look");
+  claim_ = search.kernel("claim");
+  take_ = search.kernel("take");
+}
+
+void DeviceFacets::aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights)
+{
+  receivers_.write(receivers_of(layout, weights));
+  wanted_.write(wanted_of(layout, targets));
+}
+
+void DeviceFacets::find_lack()
+{
+  find_lack_.run(cells_, group,
+                 {{"own_layout", layout_}, {"receivers", receivers_}, {"light", light_}, {"wanted", wanted_}, {"lack", lack_}});
+}
+
+void DeviceFacets::put(const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
+{
+  std::vector<Pair> narrow(slopes.size());
+  std::transform(slopes.begin(), slopes.end(), narrow.begin(), pair_of);
+  slopes_.write(narrow);
+  heights_.write(std::vector<float>(heights.begin(), heights.end()));
+  light_.fill_zero();
+  add_light_.run(facets_, group,
+                 {{"own_layout", layout_},
+                  {"receivers", receivers_},
+                  {"incoming", incoming_},
+                  {"heights", heights_},
+                  {"slopes", slopes_},
+                  {"light", light_}});
+  find_lack();
+}
+
+std::vector<glm::dvec2> DeviceFacets::slopes() const { return wide(slopes_.read()); }
+
+std::vector<std::vector<double>> DeviceFacets::light() const
+{
+  const std::vector<std::int64_t> quanta = light_.read();
+  const std::size_t receivers = receivers_.size(), cells = cells_ / receivers;
+  std::vector<std::vector<double>> light(receivers, std::vector<double>(cells));
+  for (std::size_t j = 0; j < receivers; ++j)
+    for (std::size_t c = 0; c < cells; ++c) light[j][c] = static_cast<double>(quanta[j * cells + c]) / FACET_QUANTA;
+  return light;
+}
+
+void DeviceFacets::begin_sweep(const std::vector<std::uint32_t>& order, std::int64_t sweep, std::uint64_t seed)
+{
+  order_.write(order);
+  sweep_ = static_cast<std::uint32_t>(sweep);
+  seed_ = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+  turn_ = all_turns; // the next one begins anew
+}
+
+std::size_t DeviceFacets::batch() const { return std::clamp<std::size_t>(cells_ / receivers_.size() / 128, 16, most_in_a_batch); }
+
+void DeviceFacets::look(std::size_t first, std::size_t count, double smoothing)
+{
+  const auto first_facet = static_cast<std::uint32_t>(first), facets = static_cast<std::uint32_t>(count);
+  const auto weight = static_cast<float>(smoothing);
+  const compute::Argument shared[] = {{"own_layout", layout_}, {"receivers", receivers_}, {"incoming", incoming_}, {"heights", heights_},
+                                      {"slopes", slopes_},     {"lack", lack_},           {"smoothing", weight},   {"order", order_},
+                                      {"first", first_facet},  {"count", facets},         {"found", found_},       {"done", done_}};
+  smear_y_.run(rows_, 1, {{"own_layout", layout_}, {"receivers", receivers_}, {"lack", lack_}, {"along_y", along_y_}});
+  smear_x_.run(rows_, 1, {{"own_layout", layout_}, {"receivers", receivers_}, {"along_y", along_y_}, {"smeared", smeared_}});
+  look_.run(count, group, shared, {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}});
+  for (int i = 0; i < turns; ++i, ++turn_) {
+    if (turn_ >= all_turns) {
+      claims_.write(std::vector<std::uint32_t>(claims_.size(), ~0u));
+      turn_ = 0;
+    }
+    claim_.run(count, group, shared, {{"claims", claims_}, {"turn", turn_}});
+    take_.run(count, group, shared, {{"claims", claims_}, {"turn", turn_}, {"light", light_}, {"wanted", wanted_}});
+  }
+  context_.finish();
+}
+
+std::vector<glm::dvec2> DeviceFacets::gradient()
+{
+  find_gradient_.run(facets_, group,
+                     {{"own_layout", layout_},
+                      {"receivers", receivers_},
+                      {"incoming", incoming_},
+                      {"heights", heights_},
+                      {"slopes", slopes_},
+                      {"lack", lack_},
+                      {"gradient", gradient_}});
+  return wide(gradient_.read());
+}
+
+std::uint64_t DeviceFacets::bytes(const Layout& l)
+{
+  const std::uint64_t cells = l.cell_count() * l.distances.size();
+  return l.facet_count() * (sizeof(float) + 2 * sizeof(Pair) + 2 * sizeof(std::uint32_t)) +
+         l.incoming.size() * sizeof(shared::DeviceIncoming) + cells * (sizeof(std::int64_t) + 5 * sizeof(float));
+}
+
+void DeviceFacets::state(State& state)
+{
+  std::vector<Pair> slopes = slopes_.read();
+  std::vector<float> heights = heights_.read();
+  std::vector<std::int64_t> light = light_.read();
+  state.items(slopes);
+  state.items(heights);
+  state.items(light);
+  if (!state.is_read()) return;
+  slopes_.write(slopes);
+  heights_.write(heights);
+  light_.write(light);
+  find_lack();
+}
+
+} // namespace nephroid::inverse

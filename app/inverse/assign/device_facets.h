@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The facets on the device: their slopes, the light that they send to the receivers, and which slopes would serve the pictures better
+// (kernels/inverse).
+#pragma once
+#include "base/bytes.h"
+#include "compute/compute.h"
+#include "inverse/layout.h"
+#include "kernels/inverse/facet_types.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// As kernels want it.
+shared::DeviceLayout device_layout(const Layout& layout);
+
+std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout);
+
+class DeviceFacets {
+public:
+  /// At most so many facets look for slopes at once: a claim has 12 bits for them (search.cl).
+  static constexpr std::size_t most_in_a_batch = 4096;
+
+  /// weights: of a receiver's squares. Throws failed where the device has not enough memory.
+  DeviceFacets(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
+
+  /// Other distances, targets and weights.
+  void aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
+
+  /// Light on the facets, and their neighbours as they are now.
+  void set_incoming(const Layout& layout) { incoming_.write(incoming_of(layout)); }
+
+  /// Puts all facets' light on the receivers. heights: of their middles.
+  void put(const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights);
+  std::vector<glm::dvec2> slopes() const;
+  /// [receiver][cell], in facets that send all of theirs.
+  std::vector<std::vector<double>> light() const;
+
+  /// A sweep's order, and its number, of which its random numbers come.
+  void begin_sweep(const std::vector<std::uint32_t>& order, std::int64_t sweep, std::uint64_t seed);
+  /// How many facets a batch has: more of them get into each other's way the fewer cells there are.
+  std::size_t batch() const;
+  /// Facets first .. first + count - 1 of the order look for better slopes and take them. What they gain is what each of them would gain
+  /// alone. smoothing: what a facet's Cost_N weighs in the sum.
+  void look(std::size_t first, std::size_t count, double smoothing);
+
+  /// Of the weighted squares, by each facet's slope.
+  std::vector<glm::dvec2> gradient();
+
+  static std::uint64_t bytes(const Layout& layout);
+
+  void state(State& state);
+
+private:
+  compute::Context context_;
+  shared::DeviceLayout layout_;
+  std::size_t facets_, cells_, rows_; ///< cells and their rows: of all receivers
+  compute::Buffer<shared::DeviceReceiver> receivers_;
+  compute::Buffer<shared::DeviceIncoming> incoming_;
+  compute::Buffer<float> heights_, wanted_, lack_, along_y_, smeared_;
+  compute::Buffer<std::array<float, 2>> slopes_, found_, gradient_;
+  compute::Buffer<std::int64_t> light_;
+  compute::Buffer<std::uint32_t> order_, claims_;
+  compute::Buffer<int> done_;
+  compute::Kernel add_light_, find_lack_, find_gradient_, smear_x_, smear_y_, look_, claim_, take_;
+  std::uint32_t sweep_ = 0, turn_ = 0;
+  shared::uint2 seed_{};
+
+  void find_lack();
+};
+
+} // namespace nephroid::inverse

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// All facets downhill at once.
+#pragma once
+#include "base/bytes.h"
+#include "inverse/assign/device_facets.h"
+
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// The slopes of all facets at once, downhill: conjugate gradients (Polak and Ribiere) on weighted_squares(). Sweeps leave each facet at
+/// the best place among the others; moving together, facets still gain. The number of threads changes no bit.
+class Refinement {
+public:
+  /// weights: of a receiver's squares; heights: of the facets' middles. All but the weights outlive it.
+  Refinement(const Layout& layout, const std::vector<Target>& targets, std::vector<double> weights, const std::vector<double>& heights);
+
+  /// One step along a line; the sum gets smaller, or it is finished.
+  void advance(DeviceFacets& facets);
+  bool finished() const;
+  double part() const;
+
+  void state(State& state);
+
+private:
+  double turn();
+
+  const Layout& layout_;
+  const std::vector<Target>& targets_;
+  std::vector<double> weights_;
+  const std::vector<double>& heights_;
+  // The state.
+  std::vector<glm::dvec2> gradient_, before_, direction_; ///< of each facet; before_: the gradient of the last step
+  double step_ = 0;                                       ///< along the direction
+  std::size_t done_ = 0;
+  bool stuck_ = false;
+};
+
+} // namespace nephroid::inverse

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Structs that engine 3's host code writes and its kernels read: app/inverse/layout.h in single precision. Lengths are in millimetres.
+#ifndef NEPHROID_FACET_TYPES_H
+#define NEPHROID_FACET_TYPES_H
+
+#include "kernels/tracing/shared_types.h"
+
+#ifndef __OPENCL_C_VERSION__
+namespace nephroid::shared {
+#endif
+
+// Light is counted in quanta: so many are what a facet sends at best. Sums do not depend on the order of their terms then.
+#define FACET_QUANTA 0x1p24f
+
+// A footprint is so many beams at most: 2^4.
+#define BEAMS 16
+#define DISC_POINTS 8
+#define INDEX_LEVELS 5
+
+typedef struct {
+  float size_x, size_y; // of the object
+  float facet_x, facet_y;
+  float receiver_x, receiver_y;
+  float cell_x, cell_y;
+  int columns, rows; // of facets
+  int cells_x, cells_y;
+  int receivers;
+  float n;
+  float steepest; // of a facet's gradient
+  float usable;   // slope of light that falls straight on
+  float sun_radius, scatter;
+  float spreads; // a lamp: one over its distance, as light sees it in the object; 0: parallel light
+  int free_heights;
+  // Of light with a band or a width: beams that stand for it.
+  float index_spread;                          // between the outermost indices
+  int index_levels;                            // level l has 2^l groups of indices
+  float index_over[2 * BEAMS - 1];             // over n: level after level
+  float index_within[INDEX_LEVELS];            // variance of the index that is left in the groups of a level
+  float disc[2 * DISC_POINTS], coarse_disc[8]; // x and y of points
+  float left_of_disc, left_of_coarse_disc;     // of the variance, for each point
+  float piece_in_cells, wide_in_cells;
+} DeviceLayout;
+
+typedef struct {
+  float distance;
+  float weight; // of its squares
+} DeviceReceiver;
+
+// Light that falls on a facet: inverse::Incoming.
+typedef struct {
+  float sines[2], around[2];
+  float spread[4]; // columns
+  float power;
+  int padding;
+} DeviceIncoming;
+
+// Of a triangle of the solid: inverse::Part.
+#define PART_FACET 0
+#define PART_WALL 1
+#define PART_SIDE 2
+#define PART_FRONT 3
+
+// A ray's light is counted in quanta: so many are what falls on a facet.
+#define RAY_QUANTA 0x1p32f
+
+// Where the light goes that falls on the front: inverse::Fates. Sums are kept in many places, so that rays seldom meet there.
+#define FATE_REFLECTED 0
+#define FATE_LOST 1
+#define FATE_SENT 2
+#define FATE_BY_WALLS 3
+#define FATES 4
+#define FATE_SUMS 256
+
+// The judge's light: what falls on the front, and the screens behind the object.
+typedef struct {
+  float4 direction; // of parallel light
+  float4 lamp;
+  float lamp_weight; // weight of a ray over the cosine and one over the squared distance; 0: parallel light
+  float n, sun_radius, scatter;
+  float size_x, size_y, facet_x, facet_y, thickness;
+  float receiver_x, receiver_y, cell_x, cell_y;
+  int columns, along; // facets of a row; rays along one side of a facet
+  int cells_x, cells_y, screens;
+  int index_count;
+  int padding;
+} DeviceFront;
+
+// A ray's way out of the object.
+typedef struct {
+  float4 from, direction;
+  float part; // of its light; 0: lost
+  float reflected;
+  int met_wall;
+  int padding;
+} DeviceWayOut;
+
+#ifndef __OPENCL_C_VERSION__
+static_assert(sizeof(DeviceFront) == 112 && sizeof(DeviceWayOut) == 48);
+static_assert(sizeof(DeviceLayout) == 344 && sizeof(DeviceReceiver) == 8 && sizeof(DeviceIncoming) == 40);
+} // namespace nephroid::shared
+#endif
+
+#endif

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h, which has the reasons, in single precision.
+#ifndef NEPHROID_FOOTPRINT_H
+#define NEPHROID_FOOTPRINT_H
+
+// 0: parallel light falls straight on every facet.
+#ifndef NEPHROID_INCOMING
+#define NEPHROID_INCOMING 1
+#endif
+
+// 0: light is of one direction and one wavelength.
+#ifndef NEPHROID_SPREAD
+#define NEPHROID_SPREAD 1
+#endif
+
+#include "kernels/inverse/bending.h"
+#include "kernels/inverse/facet_types.h"
+
+// Along one axis, in cells: a box that another box smears, a trapezoid.
+typedef struct {
+  float middle, reach; // reach: half of its whole width
+  float even;          // half of the width over which it is even
+  float one_over_width, tail; // tail: 1 / (2 width blur)
+} Beam;
+
+static inline Beam beam_of(float middle, float width, float blur)
+{
+  const float a = fmax(fmax(width, blur), 1e-6f), b = fmin(width, blur);
+  const Beam beam = {middle, 0.5f * (a + b), 0.5f * (a - b), 1.0f / a, 0.5f / (a * fmax(b, 1e-12f))};
+  return beam;
+}
+
+// The part of a beam before t.
+static inline float part_before(Beam beam, float t)
+{
+  const float at = t - beam.middle, rest = fmax(0.0f, beam.reach - fabs(at));
+  if (fabs(at) <= beam.even) return 0.5f + at * beam.one_over_width;
+  const float tail = fmin(0.5f, rest * rest * beam.tail);
+  return at < 0.0f ? tail : 1.0f - tail;
+}
+
+// Part of the beam on a cell.
+static inline float part_on(Beam beam, int cell) { return part_before(beam, (float)(cell + 1)) - part_before(beam, (float)cell); }
+
+// Of an edge between cells, far off or not.
+static inline int edge_cell(float edge, int cells) { return (int)clamp(edge, 0.0f, (float)cells); }
+
+// Beams that are alike, each shifted from the middle, with equal parts of the light.
+typedef struct {
+  Beam x, y;
+#if NEPHROID_SPREAD
+  int groups, points; // of indices, and of a disc about each
+  float2 by_index;    // what follows in cells
+  float3 root;        // of the disc's covariance: xx, xy, yy of a lower triangle
+  float2 low, high;   // of all shifts
+#endif
+} Footprint;
+
+static inline float2 middle_of_facet(const DeviceLayout* layout, uint facet)
+{
+  const float column = (float)(facet % (uint)layout->columns), row = (float)(facet / (uint)layout->columns);
+  return (float2)((column + 0.5f) * layout->facet_x - 0.5f * layout->size_x, 0.5f * layout->size_y - (row + 0.5f) * layout->facet_y);
+}
+
+static inline float2 in_cells(const DeviceLayout* layout, float2 p)
+{
+  return (float2)((p.x + 0.5f * layout->receiver_x) / layout->cell_x, (0.5f * layout->receiver_y - p.y) / layout->cell_y);
+}
+
+// A facet, and what does not depend on its slope.
+typedef struct {
+  int column, row;
+  float2 middle, sines;
+  float4 spread; // columns
+  float power, height;
+  global const DeviceIncoming* all; // light on all facets
+} Facet;
+
+static inline Facet facet_at(const DeviceLayout* layout, global const DeviceIncoming* incoming, global const float* heights, uint index)
+{
+  Facet facet = {(int)(index % (uint)layout->columns), (int)(index / (uint)layout->columns), middle_of_facet(layout, index),
+                 (float2)(0.0f), (float4)(0.0f), 1.0f, heights[index], incoming};
+#if NEPHROID_INCOMING
+  const DeviceIncoming in = incoming[index];
+  facet.sines = (float2)(in.sines[0], in.sines[1]);
+  facet.spread = (float4)(in.spread[0], in.spread[1], in.spread[2], in.spread[3]);
+  facet.power = in.power;
+#endif
+  return facet;
+}
+
+// The part of a facet whose light reaches the receivers: its middle and size in parts of the facet.
+typedef struct {
+  float2 middle, size;
+} LitPart;
+
+#if NEPHROID_INCOMING
+// The mean over v = -1/2 .. 1/2 of a + b v where that is above 0.
+static inline float mean_above_0(float a, float b)
+{
+  b = fabs(b);
+  return fabs(a) >= 0.5f * b ? fmax(a, 0.0f) : (a + 0.5f * b) * (a + 0.5f * b) / (2.0f * b);
+}
+
+// In parts of the facet's width: what the neighbour at a side of x hides of light with this slope, x and y being any two axes.
+static inline float hidden_by(const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g, float g_other, int axis, float ratio,
+                              float meets)
+{
+  if (to.x < 0 || to.y < 0 || to.x >= layout->columns || to.y >= layout->rows) return 0.0f;
+  global const float* around = facet->all[to.y * layout->columns + to.x].around;
+  const float h = around[axis], h_other = around[1 - axis];
+  return mean_above_0(along * 0.5f * (g + h), along * (g_other - h_other) * ratio) / fmax(0.1f, meets);
+}
+
+static inline LitPart lit_part(const DeviceLayout* layout, const Facet* facet, float2 inside, float2 slope, float2 g)
+{
+  const float ratio = layout->facet_y / layout->facet_x, in = 1.0f + dot(inside, g), out = 1.0f + dot(slope, g);
+  const int2 at = (int2)(facet->column, facet->row); // rows count downwards
+  const int2 from = (int2)(inside.x > 0.0f ? -1 : 1, inside.y > 0.0f ? -1 : 1), to = (int2)(slope.x > 0.0f ? 1 : -1, slope.y > 0.0f ? 1 : -1);
+  const float2 shadow = (float2)(hidden_by(layout, facet, at + (int2)(from.x, 0), inside.x, g.x, g.y, 0, ratio, in),
+                                 hidden_by(layout, facet, at - (int2)(0, from.y), inside.y, g.y, g.x, 1, 1.0f / ratio, in));
+  const float2 stopped = (float2)(hidden_by(layout, facet, at + (int2)(to.x, 0), slope.x, g.x, g.y, 0, ratio, out),
+                                  hidden_by(layout, facet, at - (int2)(0, to.y), slope.y, g.y, g.x, 1, 1.0f / ratio, out));
+  const LitPart lit = {-0.5f * (convert_float2(from) * shadow + convert_float2(to) * stopped),
+                       fmax((float2)(1.0f) - shadow - stopped, (float2)(0.0f))};
+  return lit;
+}
+#endif
+
+// A slope of a facet, and what is the same for all receivers.
+typedef struct {
+  float2 slope;
+  float4 map; // of places on the facet to places on a receiver at distance 0: columns
+  float4 map_by_distance;
+  LitPart lit;
+  float power; // in facets that send all of their light
+#if NEPHROID_SPREAD
+  float2 by_index;   // change of the slope
+  float3 covariance; // of the slope by the sun's disc and roughness: xx, xy, yy
+#endif
+} Beams;
+
+static inline Beams beams_of(const DeviceLayout* layout, const Facet* facet, float2 slope)
+{
+  const float n = layout->n;
+  const float2 g = facet_gradient(slope, n, facet->sines);
+  Beams beams = {slope,
+                 (float4)(1.0f + slope.x * g.x, slope.y * g.x, slope.x * g.y, 1.0f + slope.y * g.y),
+                 (float4)(0.0f),
+                 {(float2)(0.0f), (float2)(1.0f)},
+                 transmitted(slope, n, facet->sines) / transmitted((float2)(0.0f), n, facet->sines)};
+#if NEPHROID_INCOMING
+  const float2 inside = slope_inside(facet->sines, n);
+  if (!layout->free_heights) beams.lit = lit_part(layout, facet, inside, slope, g);
+  beams.power *= facet->power * (1.0f + dot(inside, g)) * beams.lit.size.x * beams.lit.size.y;
+#endif
+#if NEPHROID_SPREAD || NEPHROID_INCOMING
+  const SlopeChange change = slope_change(slope, n, facet->sines);
+#endif
+#if NEPHROID_SPREAD
+  // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
+  const float2 s = facet->sines;
+  const float sun = 0.5f * layout->sun_radius, shrinks = 1.0f / (1.0f + sqrt(1.0f - dot(s, s))), rough = layout->scatter * layout->scatter;
+  const float2 x = sun * (change.by_sine_x * (1.0f - s.x * s.x * shrinks) - change.by_sine_y * s.x * s.y * shrinks),
+               y = sun * (change.by_sine_y * (1.0f - s.y * s.y * shrinks) - change.by_sine_x * s.x * s.y * shrinks);
+  beams.covariance = (float3)(x.x * x.x + y.x * y.x + rough, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y + rough);
+  beams.by_index = change.by_index;
+#endif
+#if NEPHROID_INCOMING
+  if (layout->spreads > 0.0f) { // by_sines * spread * (1 + inside g^T)
+    const float4 s = facet->spread, m = (float4)(1.0f + inside.x * g.x, inside.y * g.x, inside.x * g.y, 1.0f + inside.y * g.y);
+    const float4 around = (float4)(s.x * m.x + s.z * m.y, s.y * m.x + s.w * m.y, s.x * m.z + s.z * m.w, s.y * m.z + s.w * m.w);
+    beams.map_by_distance = (float4)(change.by_sine_x * around.x + change.by_sine_y * around.y, change.by_sine_x * around.z + change.by_sine_y * around.w);
+  }
+#endif
+  return beams;
+}
+
+#if NEPHROID_SPREAD
+// How far beam i is from the middle, in cells.
+static inline float2 shift_of(const DeviceLayout* layout, const Footprint* print, int i)
+{
+  float2 shift = layout->index_over[print->groups - 1 + i / print->points] * print->by_index;
+  if (print->points == 1) return shift;
+  const int k = 2 * (i % print->points);
+  const float2 p = print->points == 4 ? (float2)(layout->coarse_disc[k], layout->coarse_disc[k + 1]) : (float2)(layout->disc[k], layout->disc[k + 1]);
+  return shift + (float2)(print->root.x * p.x, print->root.y * p.x + print->root.z * p.y);
+}
+#endif
+
+static inline Footprint footprint(const DeviceLayout* layout, const Facet* facet, const Beams* beams, float distance)
+{
+  Footprint print;
+  const float way = distance + facet->height;
+  const float2 cell = (float2)(layout->cell_x, layout->cell_y);
+  float2 variance = (float2)(0.0f); // of the slope, left in each beam
+#if NEPHROID_SPREAD
+  const float3 both = beams->covariance;
+  const float fine = fmin(cell.x, cell.y) / way; // a cell as a slope
+  const bool is_wide = sqrt(6.0f * (both.x + both.z)) > layout->wide_in_cells * fine;
+  const float line = length(beams->by_index) * layout->index_spread;
+  int level = 0;
+  while (level + 1 < (is_wide ? INDEX_LEVELS - 2 : INDEX_LEVELS) && level + 1 < layout->index_levels &&
+         line > layout->piece_in_cells * fine * (float)(1 << level))
+    ++level;
+  variance += layout->index_within[level] * beams->by_index * beams->by_index;
+  print.groups = 1 << level;
+  print.points = !is_wide ? 1 : level == 0 ? DISC_POINTS : 4;
+  const float2 per_slope = way / (float2)(cell.x, -cell.y);
+  print.by_index = beams->by_index * per_slope;
+  const float xx = sqrt(both.x), xy = both.x > 0.0f ? both.y / xx : 0.0f, yy = sqrt(fmax(0.0f, both.z - xy * xy));
+  print.root = (float3)(xx * per_slope.x, xy * per_slope.y, yy * per_slope.y);
+  variance += (is_wide ? print.points == 4 ? layout->left_of_coarse_disc : layout->left_of_disc : 1.0f) * (float2)(both.x, both.z);
+  print.low = print.high = shift_of(layout, &print, 0);
+  for (int i = 1; i < print.groups * print.points; ++i) {
+    print.low = fmin(print.low, shift_of(layout, &print, i));
+    print.high = fmax(print.high, shift_of(layout, &print, i));
+  }
+#endif
+  const float4 map = beams->map + way * beams->map_by_distance;
+  const float2 size = (float2)(layout->facet_x, layout->facet_y), from = beams->lit.middle * size, lit = beams->lit.size * size;
+  const float2 at = in_cells(layout, facet->middle + (float2)(map.x * from.x + map.z * from.y, map.y * from.x + map.w * from.y) + beams->slope * way);
+  const float2 blur = 12.0f * way * way * variance;
+  const float across = map.z * lit.y, down = map.y * lit.x;
+  print.x = beam_of(at.x, fabs(map.x) * lit.x / cell.x, sqrt(across * across + blur.x) / cell.x);
+  print.y = beam_of(at.y, fabs(map.w) * lit.y / cell.y, sqrt(down * down + blur.y) / cell.y);
+  return print;
+}
+
+// The cells that a footprint touches: x and y of the first, and behind the last.
+static inline int4 cells_of(const DeviceLayout* layout, const Footprint* print)
+{
+#if NEPHROID_SPREAD
+  const float2 low = print->low, high = print->high;
+#else
+  const float2 low = (float2)(0.0f), high = low;
+#endif
+  return (int4)(edge_cell(floor(print->x.middle + low.x - print->x.reach), layout->cells_x),
+                edge_cell(floor(print->y.middle + low.y - print->y.reach), layout->cells_y),
+                edge_cell(ceil(print->x.middle + high.x + print->x.reach), layout->cells_x),
+                edge_cell(ceil(print->y.middle + high.y + print->y.reach), layout->cells_y));
+}
+
+// How much of a footprint's light is on each cell of a tile. One beam says it by itself; many are added up, a tile after the other.
+#if NEPHROID_SPREAD
+#define TILE 8
+typedef float Tile[TILE * TILE];
+
+static inline int fill_tile(const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile)
+{
+  for (int i = 0; i < TILE * TILE; ++i) tile[i] = 0.0f;
+  const int count = print->groups * print->points;
+  for (int i = 0; i < count; ++i) {
+    const float2 shift = shift_of(layout, print, i) - convert_float2(corner);
+    Beam bx = print->x, by = print->y;
+    bx.middle += shift.x;
+    by.middle += shift.y;
+    for (int y = edge_cell(floor(by.middle - by.reach), TILE), y_end = edge_cell(ceil(by.middle + by.reach), TILE); y < y_end; ++y) {
+      const float part = part_on(by, y) / (float)count;
+      for (int x = edge_cell(floor(bx.middle - bx.reach), TILE), x_end = edge_cell(ceil(bx.middle + bx.reach), TILE); x < x_end; ++x)
+        tile[TILE * y + x] += part * part_on(bx, x);
+    }
+  }
+  return 1;
+}
+#define PART_ON(print, tile, x, y) ((tile)[TILE * ((y) - at.y) + (x) - at.x])
+#else
+#define TILE (1 << 20)
+typedef float Tile[1];
+static inline int fill_tile(const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile) { return 1; }
+#define PART_ON(print, tile, x, y) (part_on((print).x, x) * part_on((print).y, y))
+#endif
+
+// For every cell (x, y) that a footprint touches, of a tile that begins at `at`: PART_ON(print, tile, x, y) of its light.
+#define FOR_CELLS(layout, print, tile)                                                                                                     \
+  for (int4 box = cells_of(layout, &(print)), at = box; at.y < box.w; at.y += TILE)                                                       \
+    for (at.x = box.x; at.x < box.z; at.x += TILE)                                                                                         \
+      for (int filled = fill_tile(layout, &(print), at.xy, tile); filled; filled = 0)                                                     \
+        for (int y = at.y; y < min(at.y + TILE, box.w); ++y)                                                                               \
+          for (int x = at.x; x < min(at.x + TILE, box.z); ++x)
+
+#endif

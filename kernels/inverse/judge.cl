@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law. Its sides are black.
+#include "kernels/inverse/facet_types.h"
+#include "kernels/tracing/bvh.h"
+#include "kernels/tracing/film.h"
+#include "kernels/tracing/fresnel.h"
+#include "kernels/tracing/random.h"
+
+// 0: light is of one direction and one wavelength.
+#ifndef NEPHROID_SPREAD
+#define NEPHROID_SPREAD 1
+#endif
+
+// A ray that has met so many surfaces is lost.
+#define MAX_SURFACES 16
+
+// normals: of each triangle, unit, out of the object; w: its PART_*.
+static inline DeviceWayOut follow(global const float* nodes, global const float* blocks, int root, global const float4* normals, float n,
+                                  float3 from, float3 direction)
+{
+  DeviceWayOut way = {(float4)(0.0f), (float4)(0.0f), 1.0f, 0.0f, 0, 0};
+  uint leaves = NEPHROID_NO_PRIMITIVE;
+  int surfaces = 0;
+  for (; surfaces < MAX_SURFACES; ++surfaces) {
+    const Hit hit = closest_hit(nodes, blocks, root, from, direction, 0.0f, INFINITY, leaves);
+    if (hit.primitive == NEPHROID_NO_PRIMITIVE) break;
+    from += hit.t * direction;
+    leaves = hit.primitive;
+    const float4 surface = normals[leaves];
+    if (surface.w == PART_SIDE) {
+      surfaces = MAX_SURFACES;
+      break;
+    }
+    if (surface.w == PART_WALL) way.met_wall = 1;
+    const bool enters = dot(surface.xyz, direction) < 0.0f;
+    const float3 normal = enters ? surface.xyz : -surface.xyz;
+    const float before = enters ? 1.0f : n, behind = enters ? n : 1.0f, cos_i = fmin(1.0f, -dot(normal, direction));
+    const float cos_t = refracted_cosine(cos_i, before / behind);
+    if (cos_t < 0.0f)
+      direction = normalize(reflect_about(direction, normal, cos_i));
+    else {
+      const float reflected = way.part * fresnel_reflectance(cos_i, cos_t, before, behind);
+      way.reflected += reflected;
+      way.part -= reflected;
+      direction = refract_through(direction, normal, cos_i, cos_t, before / behind);
+    }
+  }
+  if (surfaces == MAX_SURFACES || direction.z >= 0.0f) way.part = 0.0f;
+  way.from.xyz = from;
+  way.direction.xyz = direction;
+  return way;
+}
+
+// Rays one by one, for closed forms.
+__kernel void follow_rays(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals, float n,
+                          __global const float4* from, __global const float4* directions, uint count, __global DeviceWayOut* ways)
+{
+  const uint i = (uint)get_global_id(0);
+  if (i < count) ways[i] = follow(nodes, blocks, root, normals, n, from[i].xyz, directions[i].xyz);
+}
+
+#if NEPHROID_SPREAD
+// Number k of ray i of a facet, 0..1, more evenly spread than random ones: multiples of the powers of 1 / g, g being the root of g^6 = g + 1
+// (Roberts 2018, the golden ratio in five dimensions), from a random begin. In fractions of 2^32, which wrap around.
+static inline float even_number(float begin, uint ray, uint power) { return (float)(((uint)(begin * 0x1p32f) + ray * power) >> 8) * 0x1p-24f; }
+
+static inline float2 on_circle(float r, float turn)
+{
+  float cosine;
+  const float sine = sincos(2.0f * M_PI_F * turn, &cosine);
+  return r * (float2)(cosine, sine);
+}
+
+// A direction that leads to `offset` in a plane across d at distance 1.
+static inline float3 beside(float3 d, float2 offset)
+{
+  const float3 a = normalize(cross(d, fabs(d.x) < 0.7f ? (float3)(1.0f, 0.0f, 0.0f) : (float3)(0.0f, 1.0f, 0.0f)));
+  return normalize(d + offset.x * a + offset.y * cross(a, d));
+}
+#endif
+
+static inline void add_fate(global long* fates, uint item, int fate, float light)
+{
+  add_exactly(fates + FATES * (item % FATE_SUMS) + fate, convert_long_rte(light * RAY_QUANTA));
+}
+
+// Rays first .. first + count - 1 of all: a jittered lattice on each facet, one facet after the other. light: [screen][cell].
+__kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals, DeviceFront front,
+                    __global const float* indices, __global const float* distances, uint2 seed, uint first_row, uint count,
+                    __global long* light, __global long* fates)
+{
+  const uint item = (uint)get_global_id(0);
+  if (item >= count) return;
+  const uint along = (uint)front.along, rays = along * along, facet = first_row * (uint)front.columns + item / rays, ray = item % rays;
+  const uint column = facet % (uint)front.columns, row = facet / (uint)front.columns;
+  const float4 random = random4(seed, ray, facet, 0u, STREAM_JUDGE);
+  const float2 at = (float2)((float)column + ((float)(ray % along) + random.x) / (float)along,
+                             (float)row + ((float)(ray / along) + random.y) / (float)along);
+  const float3 place = (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
+  float3 direction = front.direction.xyz;
+  float part = 1.0f / (float)rays; // of what falls on a facet
+  if (front.lamp_weight > 0.0f) {
+    const float3 way = place - front.lamp.xyz;
+    const float distance = length(way);
+    direction = way / distance;
+    part *= front.lamp_weight * -way.z / (distance * distance * distance);
+  }
+  float n = front.n;
+#if NEPHROID_SPREAD
+  const float4 begin = random4(seed, 0u, facet, 1u, STREAM_JUDGE), more = random4(seed, 0u, facet, 2u, STREAM_JUDGE);
+  if (front.sun_radius > 0.0f)
+    direction = beside(direction, front.sun_radius * on_circle(sqrt(even_number(begin.x, ray, 3785032107u)), even_number(begin.y, ray, 3335640777u)));
+  if (front.index_count > 0)
+    n = indices[min((int)(even_number(more.x, ray, 2283013049u) * (float)front.index_count), front.index_count - 1)];
+#endif
+  const DeviceWayOut out = follow(nodes, blocks, root, normals, n, place - 1e-3f * front.thickness * direction, direction);
+  add_fate(fates, item, FATE_REFLECTED, part * out.reflected);
+  if (!(out.part > 0.0f)) {
+    add_fate(fates, item, FATE_LOST, part * (1.0f - out.reflected));
+    return;
+  }
+  add_fate(fates, item, FATE_SENT, part * out.part);
+  if (out.met_wall) add_fate(fates, item, FATE_BY_WALLS, part * out.part);
+  float2 slope = out.direction.xy / -out.direction.z;
+#if NEPHROID_SPREAD
+  if (front.scatter > 0.0f) // two independent normal numbers of two of 0..1 (Box and Muller 1958)
+    slope += front.scatter * on_circle(sqrt(-2.0f * log(1.0f - even_number(begin.z, ray, 2939605023u))), even_number(begin.w, ray, 2590590015u));
+#endif
+  for (int j = 0; j < front.screens; ++j) {
+    const float2 hit = out.from.xy + slope * (distances[j] + out.from.z);
+    const float x = floor((hit.x + 0.5f * front.receiver_x) / front.cell_x), y = floor((0.5f * front.receiver_y - hit.y) / front.cell_y);
+    if (!(x >= 0.0f && y >= 0.0f && x < (float)front.cells_x && y < (float)front.cells_y)) continue;
+    const size_t cell = ((size_t)j * (size_t)front.cells_y + (size_t)y) * (size_t)front.cells_x + (size_t)x;
+    add_exactly(light + cell, convert_long_rte(part * out.part * RAY_QUANTA));
+  }
+}

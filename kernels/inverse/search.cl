@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+// Facets of a batch look for better slopes among the light of the others, all at once. Then they take them, those first that share no cell
+// with a facet before them: so that each gains as much as it would alone.
+#include "kernels/inverse/light.h"
+#include "kernels/tracing/random.h"
+
+// 1: neighbours are to be alike.
+#ifndef NEPHROID_SMOOTHS
+#define NEPHROID_SMOOTHS 1
+#endif
+
+// Refining takes so many steps of one length at most, and halves them until they are this part of a cell.
+#define STEPS 2
+#define FINEST 0.125f
+
+// Candidates across and down, of which the best of every part are scored exactly.
+#define LATTICE 32
+#define PARTS 2
+
+#define SEARCH_ARGUMENTS                                                                                                                   \
+  DeviceLayout own_layout, global const DeviceReceiver *receivers, global const DeviceIncoming *incoming, global const float *heights,   \
+      global float2 *slopes, global float *lack, float smoothing
+
+typedef struct {
+  const DeviceLayout* layout;
+  global const DeviceReceiver* receivers;
+  global const float* lack;
+  Facet facet;
+  Beams now; // where its light is, which counts as taken away
+  float3 pull;
+} Search;
+
+
+// What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this slope.
+static inline float score(const Search* s, float2 slope)
+{
+  const DeviceLayout* layout = s->layout;
+  const Beams beams = beams_of(layout, &s->facet, slope);
+#if NEPHROID_SMOOTHS
+  float sum = -dot(facet_normal(slope, layout->n, s->facet.sines), s->pull);
+#else
+  float sum = 0.0f;
+#endif
+  for (int j = 0; j < layout->receivers; ++j) {
+    const float distance = s->receivers[j].distance, weight = s->receivers[j].weight;
+    const Footprint print = footprint(layout, &s->facet, &beams, distance), own = footprint(layout, &s->facet, &s->now, distance);
+    const int4 a = cells_of(layout, &print), b = cells_of(layout, &own);
+    const bool near = a.x < b.z && b.x < a.z && a.y < b.w && b.y < a.w;
+    Tile tile, own_tile;
+    FOR_CELLS(layout, print, tile) {
+      if (near && x == at.x && y == at.y) fill_tile(layout, &own, at.xy, own_tile);
+      const float light = beams.power * PART_ON(print, tile, x, y);
+      float there = s->lack[cell_at(layout, j, x, y)] + weight * light;
+      if (near) there -= 2.0f * weight * s->now.power * PART_ON(own, own_tile, x, y);
+      sum += light * there;
+    }
+  }
+  return sum;
+}
+
+#if NEPHROID_SMOOTHS
+static inline float neighbours_of(const DeviceLayout* layout, int column, int row)
+{
+  return (float)((column > 0) + (column + 1 < layout->columns) + (row > 0) + (row + 1 < layout->rows));
+}
+
+// inverse::pull: the neighbours' normals, times one part in the facet's neighbours and one in each neighbour's own.
+static inline float3 pull_on(const DeviceLayout* layout, global const DeviceIncoming* incoming, global const float* heights,
+                             global const float2* slopes, uint index)
+{
+  const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
+  const float own = neighbours_of(layout, column, row);
+  float3 sum = (float3)(0.0f);
+  for (int side = 0; side < 4; ++side) {
+    const int c = column + (side == 0) - (side == 1), r = row + (side == 2) - (side == 3);
+    if (c < 0 || r < 0 || c >= layout->columns || r >= layout->rows) continue;
+    const uint other = (uint)(r * layout->columns + c);
+    const Facet facet = facet_at(layout, incoming, heights, other);
+    sum += (1.0f / own + 1.0f / neighbours_of(layout, c, r)) * facet_normal(slopes[other], layout->n, facet.sines);
+  }
+  return sum;
+}
+#endif
+
+static inline Search search_of(const DeviceLayout* layout, global const DeviceReceiver* receivers, global const DeviceIncoming* incoming,
+                               global const float* heights, global const float2* slopes, global const float* lack, float smoothing, uint index)
+{
+  Search s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
+  s.now = beams_of(layout, &s.facet, slopes[index]);
+#if NEPHROID_SMOOTHS
+  s.pull = smoothing * pull_on(layout, incoming, heights, slopes, index);
+#endif
+  return s;
+}
+
+// A receiver's cells with a rim of one more all around, where nothing lacks.
+static inline size_t rimmed_at(const DeviceLayout* layout, int receiver, int x, int y)
+{
+  return ((size_t)receiver * (size_t)(layout->cells_y + 2) + (size_t)(y + 1)) * (size_t)(layout->cells_x + 2) + (size_t)(x + 1);
+}
+
+// The beam of a flat facet on the middle of cell 0, along one axis.
+static inline Beam flat_beam(const DeviceLayout* layout, float distance, int axis)
+{
+  const float wide = (axis == 0 ? layout->facet_x : layout->facet_y) * (1.0f + distance * layout->spreads), sun = 0.5f * layout->sun_radius,
+              blur = distance * sqrt(12.0f * (sun * sun + layout->scatter * layout->scatter));
+  const float cell = axis == 0 ? layout->cell_x : layout->cell_y;
+  return beam_of(0.5f, wide / cell, blur / cell);
+}
+
+// The mean of the lack under such beams about every cell's middle: what candidates are looked up in, at the nearest cell. First along y, then
+// along x; a row of cells an item.
+__kernel void smear_y(DeviceLayout own_layout, __global const DeviceReceiver* receivers, __global const float* lack, __global float* along_y)
+{
+  const int row = (int)get_global_id(0), cells_x = own_layout.cells_x, cells_y = own_layout.cells_y;
+  if (row >= cells_y * own_layout.receivers) return;
+  const int y = row % cells_y;
+  const Beam beam = flat_beam(&own_layout, receivers[row / cells_y].distance, 1);
+  const int reach = (int)fmin(ceil(beam.reach - 0.5f), (float)cells_y);
+  lack += (size_t)row * (size_t)cells_x;
+  along_y += (size_t)row * (size_t)cells_x;
+  for (int x = 0; x < cells_x; ++x) along_y[x] = 0.0f;
+  for (int d = max(-reach, -y), end = min(reach, cells_y - 1 - y); d <= end; ++d) {
+    const float part = part_on(beam, d);
+    for (int x = 0; x < cells_x; ++x) along_y[x] += part * lack[d * cells_x + x];
+  }
+}
+__kernel void smear_x(DeviceLayout own_layout, __global const DeviceReceiver* receivers, __global const float* along_y,
+                      __global float* smeared)
+{
+  const int row = (int)get_global_id(0), cells_x = own_layout.cells_x, cells_y = own_layout.cells_y;
+  if (row >= cells_y * own_layout.receivers) return;
+  const Beam beam = flat_beam(&own_layout, receivers[row / cells_y].distance, 0);
+  const int reach = (int)fmin(ceil(beam.reach - 0.5f), (float)cells_x);
+  along_y += (size_t)row * (size_t)cells_x;
+  smeared += rimmed_at(&own_layout, row / cells_y, 0, row % cells_y);
+  for (int x = 0; x < cells_x; ++x) smeared[x] = 0.0f;
+  for (int d = -reach; d <= reach; ++d) {
+    const float part = part_on(beam, d);
+    for (int x = max(0, -d), end = min(cells_x, cells_x - d); x < end; ++x) smeared[x] += part * along_y[x + d];
+  }
+}
+
+#define LANES (float8)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f)
+#define GATHER(from, i)                                                                                                                   \
+  (float8)((from)[i.s0], (from)[i.s1], (from)[i.s2], (from)[i.s3], (from)[i.s4], (from)[i.s5], (from)[i.s6], (from)[i.s7])
+
+// The rows part, part + PARTS, ... of a lattice of points on the last receiver, LATTICE across and down, moved at random by `offset`: the
+// lowest sum of what lacks where a facet's light to each point falls, for every eighth point of a row, and the slope to it. Infinite: none
+// is reachable.
+static void best_of_lattice(const Search* s, global const float* smeared, float2 offset, int part, float lowest_of[8], float2 slopes[8])
+{
+  const DeviceLayout* layout = s->layout;
+  const float last = s->receivers[layout->receivers - 1].distance + s->facet.height;
+  const float2 step = (float2)(layout->receiver_x, layout->receiver_y) / (float)LATTICE,
+               corner = offset * step - 0.5f * (float2)(layout->receiver_x, layout->receiver_y);
+  float8 lowest = (float8)(INFINITY), best_x = (float8)(0.0f), best_y = (float8)(0.0f);
+  for (int k = part; k < LATTICE; k += PARTS)
+    for (int i = 0; i < LATTICE; i += 8) {
+      const float y = (corner.y + (float)k * step.y - s->facet.middle.y) / last;
+      const float8 x = (corner.x + ((float)i + LANES) * step.x - s->facet.middle.x) / last;
+      float8 sum = (float8)(0.0f);
+      for (int j = 0; j < layout->receivers; ++j) {
+        const float way = s->receivers[j].distance + s->facet.height;
+        const float down = (0.5f * layout->receiver_y - (s->facet.middle.y + y * way)) / layout->cell_y;
+        const float8 across = (s->facet.middle.x + x * way + 0.5f * layout->receiver_x) / layout->cell_x;
+        const int row = (int)clamp(floor(down), -1.0f, (float)layout->cells_y);
+        const int8 column = convert_int8(clamp(floor(across), -1.0f, (float)layout->cells_x));
+        global const float* cells = smeared + rimmed_at(layout, j, 0, row);
+        sum += GATHER(cells, column);
+      }
+#if NEPHROID_SMOOTHS || NEPHROID_INCOMING
+      float each[8], xs[8];
+      vstore8(sum, 0, each);
+      vstore8(x, 0, xs);
+      for (int lane = 0; lane < 8; ++lane) {
+        const float2 slope = (float2)(xs[lane], y);
+#if NEPHROID_SMOOTHS
+        each[lane] -= dot(facet_normal(slope, layout->n, s->facet.sines), s->pull);
+#endif
+        if (!is_reachable(slope, layout->n, s->facet.sines, layout->steepest)) each[lane] = INFINITY;
+      }
+      sum = vload8(0, each);
+      const int8 better = sum < lowest;
+#else
+      const int8 better = sum < lowest && x * x + y * y <= layout->usable * layout->usable;
+#endif
+      lowest = select(lowest, sum, better);
+      best_x = select(best_x, x, better);
+      best_y = select(best_y, (float8)(y), better);
+    }
+  float xs[8], ys[8];
+  vstore8(lowest, 0, lowest_of);
+  vstore8(best_x, 0, xs);
+  vstore8(best_y, 0, ys);
+  for (int lane = 0; lane < 8; ++lane) slopes[lane] = (float2)(xs[lane], ys[lane]);
+}
+
+// Facet order[first + i] looks for found[i]; done[i]: it has none that is better.
+__kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global const uint* order, uint first, uint count, uint2 seed,
+                   uint sweep, __global float2* found, __global int* done)
+{
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const uint index = order[first + i];
+  const Search s = search_of(&own_layout, receivers, incoming, heights, slopes, lack, smoothing, index);
+  const float2 now = slopes[index];
+  const float begin = score(&s, now);
+  float2 from = now;
+  float lowest = begin;
+  const float2 offset = random4(seed, sweep, index, 0u, STREAM_FACETS).xy;
+  for (int part = 0; part < PARTS; ++part) {
+    float there[8];
+    float2 candidates[8];
+    best_of_lattice(&s, smeared, offset, part, there, candidates);
+    for (int lane = 0; lane < 8; ++lane) {
+      if (there[lane] == INFINITY) continue;
+      there[lane] = score(&s, candidates[lane]);
+      if (there[lane] < lowest) {
+        lowest = there[lane];
+        from = candidates[lane];
+      }
+    }
+  }
+  const float last = receivers[own_layout.receivers - 1].distance;
+  float2 step = (float2)(own_layout.receiver_x, own_layout.receiver_y) / (LATTICE * last);
+  while (step.x > FINEST * own_layout.cell_x / last) {
+    step *= 0.5f;
+    for (int k = 0; k < STEPS; ++k) {
+      const float2 middle = from;
+      for (int way = 0; way < 4; ++way) {
+        const float2 slope = middle + step * (float2)((float)((way == 0) - (way == 1)), (float)((way == 2) - (way == 3)));
+        if (!is_reachable(slope, own_layout.n, s.facet.sines, own_layout.steepest)) continue;
+        const float there = score(&s, slope);
+        if (there < lowest) {
+          lowest = there;
+          from = slope;
+        }
+      }
+      if (from.x == middle.x && from.y == middle.y) break;
+    }
+  }
+  found[i] = from;
+  done[i] = !(lowest < begin);
+}
+
+static inline void claim_cells(const DeviceLayout* layout, const Footprint* print, int receiver, global uint* claims, uint key)
+{
+  const int4 box = cells_of(layout, print);
+  for (int y = box.y; y < box.w; ++y)
+    for (int x = box.x; x < box.z; ++x) atomic_min(claims + cell_at(layout, receiver, x, y), key);
+}
+
+static inline bool holds_cells(const DeviceLayout* layout, const Footprint* print, int receiver, global const uint* claims, uint key)
+{
+  const int4 box = cells_of(layout, print);
+  for (int y = box.y; y < box.w; ++y)
+    for (int x = box.x; x < box.z; ++x)
+      if (claims[cell_at(layout, receiver, x, y)] != key) return false;
+  return true;
+}
+
+// Claims are the cells of all receivers, then the facets where neighbours are to be alike. A key is lower the later the turn and the
+// earlier the facet in its batch, so that claims of turns before count no more.
+#define KEY(turn, i) ((0xFFFFFu - (turn)) << 12 | (i))
+
+__kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, uint count, __global const float2* found, __global const int* done,
+                    __global uint* claims, uint turn)
+{
+  const uint i = (uint)get_global_id(0);
+  if (i >= count || done[i]) return;
+  const uint index = order[first + i], key = KEY(turn, i);
+  const Facet facet = facet_at(&own_layout, incoming, heights, index);
+  const Beams now = beams_of(&own_layout, &facet, slopes[index]), then = beams_of(&own_layout, &facet, found[i]);
+  for (int j = 0; j < own_layout.receivers; ++j) {
+    const Footprint before = footprint(&own_layout, &facet, &now, receivers[j].distance),
+                    after = footprint(&own_layout, &facet, &then, receivers[j].distance);
+    claim_cells(&own_layout, &before, j, claims, key);
+    claim_cells(&own_layout, &after, j, claims, key);
+  }
+#if NEPHROID_SMOOTHS
+  __global uint* facets = claims + cell_at(&own_layout, own_layout.receivers, 0, 0);
+  const int column = (int)(index % (uint)own_layout.columns), row = (int)(index / (uint)own_layout.columns);
+  atomic_min(facets + index, key);
+  if (column > 0) atomic_min(facets + index - 1, key);
+  if (column + 1 < own_layout.columns) atomic_min(facets + index + 1, key);
+  if (row > 0) atomic_min(facets + index - own_layout.columns, key);
+  if (row + 1 < own_layout.rows) atomic_min(facets + index + own_layout.columns, key);
+#endif
+}
+
+static inline void move_light(const DeviceLayout* layout, const Footprint* print, float power, int receiver, global long* light)
+{
+  Tile tile;
+  FOR_CELLS(layout, *print, tile) {
+    const long quanta = quanta_of(fabs(power) * PART_ON(*print, tile, x, y));
+    light[cell_at(layout, receiver, x, y)] += power < 0.0f ? -quanta : quanta;
+  }
+}
+
+static inline void note_lack(const DeviceLayout* layout, const Footprint* print, float weight, int receiver, global const long* light,
+                             global const float* wanted, global float* lack)
+{
+  const int4 box = cells_of(layout, print);
+  for (int y = box.y; y < box.w; ++y)
+    for (int x = box.x; x < box.z; ++x) {
+    const size_t cell = cell_at(layout, receiver, x, y);
+    lack[cell] = lack_of(light[cell], wanted[cell], weight);
+  }
+}
+
+// Facets that hold all that they claimed have their cells to themselves. They take what they found if it is better still.
+__kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const uint* order, uint first, uint count,
+                   __global const float2* found, __global int* done, __global const uint* claims, uint turn)
+{
+  const uint i = (uint)get_global_id(0);
+  if (i >= count || done[i]) return;
+  const uint index = order[first + i], key = KEY(turn, i);
+  const Facet facet = facet_at(&own_layout, incoming, heights, index);
+  const Beams now = beams_of(&own_layout, &facet, slopes[index]), then = beams_of(&own_layout, &facet, found[i]);
+  for (int j = 0; j < own_layout.receivers; ++j) {
+    const Footprint before = footprint(&own_layout, &facet, &now, receivers[j].distance),
+                    after = footprint(&own_layout, &facet, &then, receivers[j].distance);
+    if (!holds_cells(&own_layout, &before, j, claims, key) || !holds_cells(&own_layout, &after, j, claims, key)) return;
+  }
+#if NEPHROID_SMOOTHS
+  __global const uint* facets = claims + cell_at(&own_layout, own_layout.receivers, 0, 0);
+  const int column = (int)(index % (uint)own_layout.columns), row = (int)(index / (uint)own_layout.columns);
+  if (facets[index] != key || (column > 0 && facets[index - 1] != key) ||
+      (column + 1 < own_layout.columns && facets[index + 1] != key) || (row > 0 && facets[index - own_layout.columns] != key) ||
+      (row + 1 < own_layout.rows && facets[index + own_layout.columns] != key))
+    return;
+#endif
+  done[i] = 1;
+  const Search s = search_of(&own_layout, receivers, incoming, heights, slopes, lack, smoothing, index);
+  if (!(score(&s, found[i]) < score(&s, slopes[index]))) return;
+  for (int j = 0; j < own_layout.receivers; ++j) {
+    const Footprint before = footprint(&own_layout, &facet, &now, receivers[j].distance),
+                    after = footprint(&own_layout, &facet, &then, receivers[j].distance);
+    move_light(&own_layout, &before, -now.power, j, light);
+    move_light(&own_layout, &after, then.power, j, light);
+    note_lack(&own_layout, &before, receivers[j].weight, j, light, wanted, lack);
+    note_lack(&own_layout, &after, receivers[j].weight, j, light, wanted, lack);
+  }
+  slopes[index] = found[i];
+}
