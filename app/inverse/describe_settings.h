@@ -156,6 +156,10 @@ inline void describe(preset::Fields& v, Settings& s)
           {.unit = "mm", .bounds = within(0.001, 1e5)});
   v.field("max_slope_deg", "How far a facet may be tilted against the front.", s.max_slope_deg,
           {.unit = "degrees", .bounds = within(0.01, 90)});
+  v.field("tool_radius_mm", "Of the cutter that mills the facets, each of which must be as wide as the cutter at least.", s.tool_radius_mm,
+          {.unit = "mm", .bounds = within(0.001, 1e4)});
+  v.field("draft_deg", "How far walls between facets lean at least, so that they can be milled or leave a mould.", s.draft_deg,
+          {.unit = "degrees", .bounds = within(0, 30)});
   v.field("smoothing_normals",
           "Weight of facets that are unlike their neighbours, over 'smoothing_pictures': alpha_N of the thesis' (6.1).",
           s.smoothing_normals, {.bounds = within(0, 1000)});
@@ -176,6 +180,8 @@ inline void describe(preset::Fields& v, Settings& s)
   v.field("cells", "Cells of every picture, across and down.", s.cells, {.bounds = within(2, 1024)});
   v.field("frames", "How many pictures the judge takes between each receiver and the next one, as a screen that moves would show them.",
           s.frames, {.bounds = within(0, 64)});
+  v.field("tolerances", "Judges the object with errors of making and of putting it up, too; takes five times as long as to judge it.",
+          s.tolerances);
   v.field("receivers", "The screens that light reaches, the nearest first.", s.receivers, {.count = {1, 16}});
   v.field("thesis", "Constants of the method \"thesis\".", s.thesis);
 }

@@ -7,8 +7,10 @@
 #include "inverse/facets/files.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
+#include "inverse/print_page.h"
 #include "inverse/sheet.h"
 #include "inverse/thesis/pipeline.h"
+#include "inverse/tolerances.h"
 
 #include <fmt/format.h>
 
@@ -65,7 +67,7 @@ public:
     (judge_ ? judge_seconds_ : method_seconds_) += since(begin);
   }
 
-  bool finished() const override { return judge_ && judge_->finished(); }
+  bool finished() const override { return judged() && (!tolerances_ || tolerances_->finished()); }
   bool estimates_error() const override { return false; }
 
   job::Progress progress() const override
@@ -78,7 +80,7 @@ public:
     const double steps = static_cast<double>(p.step - began_.steps) + method_->part();
     const double looked = std::max(most_steps() ? steps / static_cast<double>(*most_steps()) : 0,
                                    preset_.stop.seconds ? (method_seconds_ - began_.seconds) / *preset_.stop.seconds : 0);
-    p.fraction = judge_ ? 1 - judge_part + judge_part * judge_->part() : std::min(1.0, looked) * (1 - judge_part);
+    p.fraction = judge_ ? 1 - judge_part + judge_part * judged_part() : std::min(1.0, looked) * (1 - judge_part);
     p.units = method_->units();
     return p;
   }
@@ -110,8 +112,7 @@ public:
       layout_ = std::move(plan.layout);
       targets_ = std::move(plan.targets);
       method_->relight();
-      judge_.reset();
-      solid_.reset();
+      stop_judging();
       began_ = {method_->steps(), method_seconds_};
       note_step();
     }
@@ -144,10 +145,10 @@ private:
     if (!judged) return;
     if (state.is_read()) begin_judging();
     judge_->state(state);
+    if (tolerances_) tolerances_->state(state);
     if (!state.is_read() || found()) return;
     conflict_known_ = false;
-    judge_.reset();
-    solid_.reset();
+    stop_judging();
   }
 
   bool found() const
@@ -165,8 +166,10 @@ private:
 
   void advance()
   {
-    if (judge_)
+    if (judge_ && !judged())
       judge_->advance();
+    else if (judge_)
+      tolerances_->advance();
     else if (found())
       begin_judging();
     else {
@@ -187,11 +190,24 @@ private:
   {
     solid_ = std::make_shared<const Solid>(method_->solid());
     judge_.emplace(context_, layout_, *solid_, preset_.seed);
+    if (settings(preset_).tolerances) tolerances_.emplace(context_, layout_, targets_, *solid_, preset_.seed);
     conflict_known_ = false;
   }
 
+  void stop_judging()
+  {
+    tolerances_.reset();
+    judge_.reset();
+    solid_.reset();
+  }
+
+  bool judged() const { return judge_ && judge_->finished(); }
+
+  /// Of the judge's work, each error of the tolerances being as much as the object itself.
+  double judged_part() const { return tolerances_ ? (judge_->part() + 5 * tolerances_->part()) / 6 : judge_->part(); }
+
   /// As judged where that is done, else as believed.
-  const std::vector<double>& light(std::size_t receiver) const { return finished() ? judge_->light(receiver) : method_->light(receiver); }
+  const std::vector<double>& light(std::size_t receiver) const { return judged() ? judge_->light(receiver) : method_->light(receiver); }
 
   /// Part of all light, in a cell.
   double brightest(std::size_t receiver) const { return *std::max_element(targets_[receiver].begin(), targets_[receiver].end()); }
@@ -199,7 +215,7 @@ private:
   void add_pictures(job::Snapshot& snapshot)
   {
     std::vector<std::vector<Captioned>> columns;
-    const std::vector<Cost> costs = finished() ? judge_->costs(targets_) : method_->costs();
+    const std::vector<Cost> costs = judged() ? judge_->costs(targets_) : method_->costs();
     for (std::size_t j = 0; j < targets_.size(); ++j) {
       const auto wanted = grey_picture(targets_[j], 1 / brightest(j), layout_.cells),
                  received = received_picture(light(j), brightest(j), layout_);
@@ -281,12 +297,12 @@ private:
 
   void add_scalars(job::Snapshot& snapshot) const
   {
-    const std::vector<Cost> believed = method_->costs(), judged = finished() ? judge_->costs(targets_) : std::vector<Cost>();
+    const std::vector<Cost> believed = method_->costs(), judged = this->judged() ? judge_->costs(targets_) : std::vector<Cost>();
     add_cost(snapshot, "believed", mean(believed));
-    if (finished()) add_cost(snapshot, "judged", mean(judged));
+    if (this->judged()) add_cost(snapshot, "judged", mean(judged));
     add_receivers(snapshot, believed, judged);
     if (conflicts_) add_conflicts(snapshot);
-    if (!finished()) return;
+    if (!this->judged()) return;
     const Fates f = judge_->fates();
     snapshot.scalars.insert(
         snapshot.scalars.end(),
@@ -297,6 +313,7 @@ private:
                                                      {"object", "thinnest_mm", layout_.thickness - solid_->highest},
                                                      {"object", "highest_wall_mm", solid_->highest_wall},
                                                      {"object", "wall_area_mm2", solid_->wall_area},
+                                                     {"object", "steepest_wall_deg", solid_->wall_area > 0 ? solid_->steepest_wall_deg : 0},
                                                      {"object", "roughness", roughness(layout_, method_->slopes())},
                                                      {"object", "steepest_deg", solid_->steepest_deg},
                                                      {"object", "triangles", static_cast<double>(solid_->mesh.triangles.size())}});
@@ -317,10 +334,19 @@ private:
     if (!layout_.lamp)
       snapshot.files.push_back({glass_view_file, [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
                                                      ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
-    add("workshop.md", [material = material_of(settings(preset_), layout_.n)](const Layout& of, const Solid& solid, ByteSink& to) {
-      const std::string page = workshop_page(of, solid, material);
-      to.write(std::as_bytes(std::span(page)));
-    });
+    const std::string tolerances = tolerances_ ? tolerance_table(judge_->costs(targets_), tolerances_->rows()) : "";
+    add("workshop.md",
+        [material = material_of(settings(preset_), layout_.n), tolerances](const Layout& of, const Solid& solid, ByteSink& to) {
+          const std::string page = workshop_page(of, solid, material) + tolerances;
+          to.write(std::as_bytes(std::span(page)));
+        });
+    const auto add_text = [&](const char* name, std::string text) {
+      snapshot.files.push_back({name, [text = std::move(text)](ByteSink& to) { to.write(std::as_bytes(std::span(text))); }});
+    };
+    if (tolerances_) add_text("tolerance.csv", tolerance_csv(judge_->costs(targets_), tolerances_->rows()));
+    std::vector<std::shared_ptr<const job::Picture>> cast;
+    for (std::size_t j = 0; j < targets_.size(); ++j) cast.push_back(received_picture(light(j), brightest(j), layout_));
+    add_text("print.svg", print_page(layout_, cast, preset_.name.empty() ? "The object" : preset_.name));
   }
 
   /// Where the stop counts from: the run's begin, or the newest preset that it took on.
@@ -339,6 +365,7 @@ private:
   double method_seconds_ = 0, judge_seconds_ = 0;
   std::shared_ptr<const Solid> solid_; ///< from when the slopes are found
   std::optional<Judge> judge_;
+  std::optional<Tolerances> tolerances_; ///< where they are wanted, from when the judge begins
   bool conflict_known_ = false;
   std::shared_ptr<const job::Picture> conflict_; ///< where known
   std::optional<Conflicts> conflicts_;           ///< the same, once the slopes are found

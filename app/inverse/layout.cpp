@@ -126,6 +126,24 @@ void check_constraints(const Layout& l, const Settings& s, const Place& own)
                   too_shallow ? "choose a deeper relief or more facets" : "choose a larger angle or a receiver further away");
 }
 
+/// A cutter must fit onto a facet.
+void check_tool(const Layout& l, const Settings& s, const Place& own)
+{
+  if (!s.tool_radius_mm || s.method == Settings::Method::lens) return;
+  const double width = 2 * *s.tool_radius_mm;
+  if (width > std::min(l.size.x, l.size.y))
+    throw bad_input(
+        own / "tool_radius_mm",
+        fmt::format("is {} mm, a tool that is wider than the object of {:.4g} x {:.4g} mm", *s.tool_radius_mm, l.size.x, l.size.y),
+        "expected the radius of a tool that fits onto a facet");
+  if (width <= std::min(l.facet().x, l.facet().y)) return;
+  throw bad_input(
+      own / "tool_radius_mm",
+      fmt::format("is {} mm, a tool that is wider than a facet of {:.4g} x {:.4g} mm", *s.tool_radius_mm, l.facet().x, l.facet().y),
+      fmt::format("expected at most {:.4g} mm", std::min(l.facet().x, l.facet().y) / 2),
+      fmt::format("or choose at most {} x {} facets", static_cast<int>(l.size.x / width), static_cast<int>(l.size.y / width)));
+}
+
 /// Light must be aimed at a cell, by facets that the solid turns a little.
 void check_aim(const Layout& l, const Place& own)
 {
@@ -160,11 +178,13 @@ Layout make_layout(const preset::Preset& preset)
   l.sun_radius = std::tan(glm::radians(s.sun_deg / 2));
   l.scatter = std::tan(glm::radians(s.scatter_deg));
 
+  l.draft = std::tan(glm::radians(s.draft_deg));
   l.smoothing = s.smoothing_normals / s.smoothing_pictures;
   l.free_heights = s.heights == Settings::Heights::free;
   l.band = band_of(s, own);
   l.steepest = 2 * l.band / glm::length(l.facet());
   if (s.max_slope_deg) l.steepest = std::min(l.steepest, std::tan(glm::radians(*s.max_slope_deg)));
+  check_tool(l, s, own);
   check_constraints(l, s, own);
   set_light(l, s.light, own / "light");
 

@@ -48,6 +48,7 @@ struct Layout {
   double band = std::numeric_limits<double>::infinity();     ///< no corner of a facet is further from z = 0
   double steepest = std::numeric_limits<double>::infinity(); ///< of a facet's gradient, at most
 
+  double draft = 0;     ///< tangent of the least angle between a wall and the light straight on
   double smoothing = 0; ///< thesis (6.1): alpha_N over alpha_P
 
   glm::dvec2 facet() const { return size / glm::dvec2(facets); }

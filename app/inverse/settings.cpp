@@ -87,6 +87,9 @@ void check(const preset::Preset& preset, const Where& where)
            "expected one, because a smooth surface casts one picture", "choose \"assign\", or keep one receiver");
   if (lens && free_heights)
     refuse("heights", "is \"free\", and the method \"lens\" makes a surface without steps", "expected none", "remove it");
+  if (lens && s.draft_deg > 0)
+    refuse("draft_deg", fmt::format("is {}, and the method \"lens\" makes a surface without walls", s.draft_deg), "expected 0",
+           "remove it");
   if (s.smoothing_normals > 0 && s.method != Method::assign)
     refuse("smoothing_normals", fmt::format("is {}, and only the method 'assign' has such a term", s.smoothing_normals), "expected 0",
            "or choose the method 'assign'");

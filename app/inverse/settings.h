@@ -79,6 +79,8 @@ struct Settings {
   std::optional<double> min_thickness_mm{}; ///< nowhere is the object thinner
   std::optional<double> max_relief_mm{};    ///< from the lowest corner of a facet to the highest
   std::optional<double> max_slope_deg{};    ///< between a facet and the front
+  std::optional<double> tool_radius_mm{};   ///< of the cutter that mills the facets
+  double draft_deg = 0;                     ///< between a wall and the straight up, at least
   double smoothing_normals = 0;             ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
   double smoothing_pictures = 1;            ///< alpha_P: weight of the pictures' error
   std::array<int, 2> facets{128, 128};      ///< across and down
@@ -91,6 +93,7 @@ struct Settings {
   std::optional<std::array<double, 2>> receiver_mm{}; ///< size of every receiver; without: the object's
   std::array<int, 2> cells{64, 64};                   ///< of every receiver, across and down
   int frames = 0;                                     ///< pictures between a receiver and the next one
+  bool tolerances = false;                            ///< judge objects that are made or put up a little wrong, too
   std::vector<Receiver> receivers{{100, Picture{}}};  ///< the nearest first
   Thesis thesis{};                                    ///< of the method thesis
   bool operator==(const Settings&) const = default;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/base64.h"
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/difference.h"
@@ -20,19 +21,6 @@ using SharedPicture = std::shared_ptr<const Picture>;
 constexpr const char* main_name = "image";
 
 bool have_one_size(const Picture& a, const Picture& b) { return a.width == b.width && a.height == b.height; }
-
-std::string base64(std::string_view bytes)
-{
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u; };
-    const unsigned group = byte(0) << 16 | byte(1) << 8 | byte(2);
-    for (int k = 0; k < 4; ++k) text += i + static_cast<std::size_t>(k) > bytes.size() ? '=' : digits[group >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
 
 /// image.exr first, there or not, then the others in the order of their names.
 std::vector<fs::path> picture_files(const fs::path& folder)

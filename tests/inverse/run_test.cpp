@@ -94,6 +94,22 @@ TEST_F(InverseRun, LeavesNothingOfTheRunBefore)
     EXPECT_FALSE(fs::exists(folder / "out" / file)) << file;
 }
 
+// Walls that lean take a strip of each facet, whose light goes elsewhere; what errors do stands in two files.
+TEST_F(InverseRun, SaysWhatAWorkshopMayGetWrong)
+{
+  run_to("upright", {"--passes", "2"});
+  run_to("out", {"--passes", "2", "--set", "inverse.draft_deg=5", "--set", "inverse.tolerances=true"});
+  const json all = of("out/run.json");
+  EXPECT_LE(all.at("object").at("steepest_wall_deg").get<double>(), 85.01);
+  EXPECT_EQ(of("upright/run.json").at("object").at("steepest_wall_deg"), 90);
+  EXPECT_GT(all.at("light").at("by_walls").get<double>(), 0.01);
+  EXPECT_GT(all.at("judged").at("rel_l2").get<double>(), of("upright/run.json").at("judged").at("rel_l2").get<double>());
+  EXPECT_THAT(bytes("out/tolerance.csv"), AllOf(StartsWith("error,receiver,cost,rel_l2\nnone,1,"), HasSubstr("\nheights off by 20 um,3,")));
+  EXPECT_THAT(bytes("out/workshop.md"), AllOf(HasSubstr("walls between them that lean"), HasSubstr("## Tolerances")));
+  EXPECT_THAT(bytes("out/print.svg"), HasSubstr("200 mm from the facets"));
+  EXPECT_FALSE(fs::exists(folder / "upright/tolerance.csv"));
+}
+
 TEST_F(InverseRun, GoesOnWithTheSameBits)
 {
   run_to("whole", {"--passes", "3"});

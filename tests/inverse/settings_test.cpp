@@ -59,6 +59,7 @@ TEST_F(InverseSettings, ALensCastsOnePicture)
            R"(inverse.receivers=[{"distance_mm": 90, "picture": {"type": "disc"}}, {"distance_mm": 99, "picture": {"type": "disc"}}])"}),
       AllOf(HasSubstr("is \"lens\", and there are 2 receivers"), HasSubstr("choose \"assign\"")));
   EXPECT_THAT(refusal({"inverse.method=lens", "inverse.heights=free"}), HasSubstr("a surface without steps"));
+  EXPECT_THAT(refusal({"inverse.method=lens", "inverse.draft_deg=3"}), HasSubstr("a surface without walls"));
 }
 
 TEST_F(InverseSettings, Index)
@@ -100,6 +101,16 @@ TEST_F(InverseSettings, SlopesThatNoRefractionReaches)
   EXPECT_THAT(line, AllOf(HasSubstr("own.json#/inverse/receivers/0/distance_mm: light must reach"),
                           HasSubstr("an index of 1.5 bends it by a slope of 1.06 at most"), HasSubstr("choose a distance of at least")));
   EXPECT_NO_THROW(inverse::make_plan(read({"inverse.receiver_mm=[600, 600]", "inverse.receivers.0.distance_mm=200"})));
+}
+
+TEST_F(InverseSettings, ToolsThatDoNotFit)
+{
+  const auto of_tool = [&](const char* radius) {
+    return refusal({"inverse.facets=[50, 40]", std::string("inverse.tool_radius_mm=") + radius});
+  };
+  EXPECT_THAT(of_tool("51"), HasSubstr("own.json#/inverse/tool_radius_mm: is 51 mm, a tool that is wider than the object of 100 x 100 mm"));
+  EXPECT_THAT(of_tool("1.5"), AllOf(HasSubstr("wider than a facet of 2 x 2.5 mm; expected at most 1 mm"), HasSubstr("33 x 33 facets")));
+  EXPECT_NO_THROW(inverse::make_plan(read({"inverse.facets=[50, 40]", "inverse.tool_radius_mm=1"})));
 }
 
 TEST_F(InverseSettings, Drawings)

@@ -35,6 +35,12 @@ std::string png_scale(const Layout& layout, const Solid& solid)
                      scale_of(layout));
 }
 
+std::string wall_angle(const Solid& solid)
+{
+  return solid.steepest_wall_deg < 90 ? fmt::format("{:.4g} degrees from the front", solid.steepest_wall_deg)
+                                      : "90 degrees, as all of them";
+}
+
 } // namespace
 
 void write_obj(const scene::Mesh& mesh, ByteSink& to)
@@ -76,11 +82,14 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
   row("facets", fmt::format("{} x {}", layout.facets.x, layout.facets.y));
   row("smallest facet", fmt::format("{:.4g} x {:.4g} mm, as all of them", layout.facet().x, layout.facet().y));
   row("steepest facet", fmt::format("{:.4g} degrees from the front", solid.steepest_deg));
-  row("steepest wall", solid.wall_area > 0 ? "90 degrees, as all of them" : "none");
+  row("steepest wall", solid.wall_area > 0 ? wall_angle(solid) : "none");
   row("highest wall", mm(solid.highest_wall));
   row("area of the walls between facets", fmt::format("{:.4g} mm2", solid.wall_area));
-  page += fmt::format("\nThe front is flat and the light's way in. {} on the other side.\n\n",
-                      solid.wall_area > 0 ? "The facets, with walls between them that stand straight up, are" : "The relief is");
+  page +=
+      fmt::format("\nThe front is flat and the light's way in. {} on the other side.\n\n",
+                  solid.wall_area > 0 ? (solid.steepest_wall_deg < 90 ? "The facets, with walls between them that lean, are"
+                                                                      : "The facets, with walls between them that stand straight up, are")
+                                      : "The relief is");
   page += "- `object.stl`, `object.obj`, `object.ply`: the closed solid in millimetres, the front at the top (+z).\n"
           "- `facets.json`: a line a facet.\n";
   fmt::format_to(std::back_inserter(page), "- `heights.exr`: thickness in mm; {}.\n- `heights.png`: {}.\n", scale_of(layout),

@@ -2,6 +2,7 @@
 #include "inverse/facets/solid.h"
 
 #include "inverse/bending.h"
+#include "inverse/facets/draft.h"
 
 #include <glm/gtc/constants.hpp>
 
@@ -326,6 +327,7 @@ private:
 
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
 {
+  if (layout.draft > 0) return make_drafted_solid(layout, slopes, heights);
   return Builder(layout, slopes, heights).build();
 }
 

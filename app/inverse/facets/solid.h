@@ -25,6 +25,7 @@ struct Solid {
   double steepest_deg = 0;        ///< between a facet and the front
   double highest_wall = 0;        ///< between two facets
   double wall_area = 0;           ///< mm^2, between facets
+  double steepest_wall_deg = 90;  ///< between a wall and the front
   double relief() const { return highest - lowest; }
 };
 

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much worse the pictures become where the object is made or put up a little wrong, by the judge.
+#pragma once
+#include "inverse/judge.h"
+
+#include <optional>
+
+namespace nephroid::inverse {
+
+/// One error at a time: heights that are off by 1, 5 and 20 micrometres, the object turned by a degree about its middle, the receivers 1 %
+/// too far. Heights are off as milling and polishing leave them: in waves along the surface, so that neighbouring places are off alike;
+/// the figure is their root mean square. Their length decides over the slopes that they add: see wave_mm.
+class Tolerances {
+public:
+  /// All of them outlive it.
+  Tolerances(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
+             std::uint64_t seed);
+
+  /// A few rows of facets of the judge's.
+  void advance();
+  bool finished() const;
+  double part() const;
+
+  struct Row {
+    std::string_view what;
+    std::vector<Cost> costs; ///< of each receiver
+  };
+  const std::vector<Row>& rows() const { return rows_; } ///< so far
+
+  void state(State& state);
+
+private:
+  void begin();
+
+  const compute::Context& context_;
+  const Layout& layout_;
+  const std::vector<Target>& targets_;
+  const Solid& solid_;
+  std::uint64_t seed_;
+  std::vector<Row> rows_;
+  Layout changed_layout_; ///< of the error in hand, with the solid and its judge
+  Solid changed_;
+  std::optional<Judge> judge_;
+};
+
+/// Length of the waves on the surface: of what machines leave, waviness is 0.8 to 8 mm long.
+inline constexpr double wave_mm = 5;
+
+/// Its surface but the flat front is off along z, in waves of this root mean square.
+Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t seed);
+
+/// A section of workshop.md, and the same figures as CSV. judged: without errors.
+std::string tolerance_table(const std::vector<Cost>& judged, const std::vector<Tolerances::Row>& rows);
+std::string tolerance_csv(const std::vector<Cost>& judged, const std::vector<Tolerances::Row>& rows);
+
+} // namespace nephroid::inverse
