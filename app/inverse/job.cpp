@@ -51,7 +51,7 @@ struct CostRow {
 class InverseJob final : public job::Job {
 public:
   InverseJob(const preset::Preset& preset, const InversePlan& plan)
-      : preset_(preset), layout_(plan.layout), targets_(plan.targets), method_(make_method(preset, layout_, targets_))
+      : preset_(preset), layout_(plan.layout), targets_(plan.targets), best_(plan.best), method_(make_method(preset, layout_, targets_))
   {
     note_step();
   }
@@ -107,6 +107,7 @@ public:
       InversePlan plan = make_plan(preset);
       layout_ = std::move(plan.layout);
       targets_ = std::move(plan.targets);
+      best_ = std::move(plan.best);
       method_->relight();
       judge_.reset();
       solid_.reset();
@@ -206,6 +207,7 @@ private:
                          {difference_picture(*wanted, *received), "red: too much, blue: too little"}});
       const char* const names[] = {"target", "receiver", "difference"};
       for (std::size_t i = 0; i < 3; ++i) snapshot.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i].picture});
+      snapshot.pictures.push_back({fmt::format("best_{}", j + 1), grey_picture(best_[j], 1 / brightest(j), layout_.cells)});
     }
     snapshot.pictures.push_back({"slopes", slopes_picture(method_->slopes(), method_->heights(), layout_)});
     snapshot.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
@@ -329,7 +331,7 @@ private:
 
   preset::Preset preset_;
   Layout layout_;
-  std::vector<Target> targets_;
+  std::vector<Target> targets_, best_;
   std::unique_ptr<Method> method_;
   Began began_;
   std::vector<CostRow> history_;

@@ -125,9 +125,9 @@ void AnnealingPanel::draw_receivers(const Context& context)
   const float column = std::max(std::floor(free / static_cast<float>(count)) - gap, least);
   const glm::dvec2 shape = layout_ ? layout_->receiver : glm::dvec2(1);
   const ImVec2 size = fitted(shape, std::min(column, std::max(least, 0.1f * ImGui::GetWindowHeight())));
-  const std::array<const char*, 3> kinds{"target", "receiver", "difference"};
+  const std::array<const char*, 4> kinds{"target", "best", "receiver", "difference"};
   const float line = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().CellPadding.y, row = size.y + 2 * ImGui::GetStyle().CellPadding.y;
-  const float height = 2 * line + row * (beam_ ? 4 : 3) + ImGui::GetTextLineHeight() + ImGui::GetStyle().ScrollbarSize + gap;
+  const float height = 2 * line + row * (beam_ ? 5 : 4) + ImGui::GetTextLineHeight() + ImGui::GetStyle().ScrollbarSize + gap;
   if (!ImGui::BeginTable("receivers", static_cast<int>(count), ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedSame, {0, height}))
     return;
   for (std::size_t j = 0; j < count; ++j) ImGui::TableSetupColumn(fmt::format("{}", j).c_str(), ImGuiTableColumnFlags_WidthFixed, column);
@@ -190,6 +190,8 @@ void AnnealingPanel::draw_receiver_picture(const std::string& kind, std::size_t 
   };
   if (kind == "target")
     ImGui::SetItemTooltip("What receiver %zu shall show", receiver + 1);
+  else if (kind == "best")
+    ImGui::SetItemTooltip("The closest that facets of this size could cast on receiver %zu, were it the only one", receiver + 1);
   else if (kind == "receiver")
     tooltip(fmt::format("What receiver {} shows, {}\ncost {}, relative {}", receiver + 1, judged ? "judged" : "believed", figure("cost"),
                         figure("rel_l2")));
