@@ -7,6 +7,7 @@
 #include "inverse/facets/files.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
+#include "inverse/object_view.h"
 #include "inverse/sheet.h"
 #include "inverse/thesis/pipeline.h"
 
@@ -111,6 +112,7 @@ public:
       method_->relight();
       judge_.reset();
       solid_.reset();
+      in_view_.reset();
       began_ = {method_->steps(), method_seconds_};
       note_step();
     }
@@ -213,6 +215,21 @@ private:
     snapshot.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
     if (!std::exchange(conflict_known_, true)) find_conflicts();
     snapshot.pictures.push_back({"conflict", conflict_});
+    snapshot.in_view = object_picture(columns);
+  }
+
+  /// The same picture until a quarter of a step, the judge or the camera changes it.
+  std::shared_ptr<const job::Picture> object_picture(const std::vector<std::vector<Captioned>>& columns)
+  {
+    const preset::Camera camera = view_camera(preset_);
+    const Viewed now{method_->steps(), static_cast<int>(4 * method_->part()), finished(), camera};
+    if (in_view_ && now == viewed_) return in_view_;
+    viewed_ = now;
+    const std::vector<double> heights = method_->heights();
+    ObjectView view{layout_, method_->slopes(), heights, settings(preset_).method == Settings::Method::lens, {}};
+    for (const std::vector<Captioned>& column : columns) view.receivers.push_back(column[1].picture);
+    in_view_ = view_of(view, camera);
+    return in_view_;
   }
 
   /// Once for every step, where somebody looks; which pictures fight once the slopes are found.
@@ -329,6 +346,15 @@ private:
     double seconds = 0;
   };
 
+  /// What the picture of the object is of.
+  struct Viewed {
+    std::int64_t steps = 0;
+    int quarter = 0; ///< of the step in hand
+    bool judged = false;
+    preset::Camera camera;
+    bool operator==(const Viewed&) const = default;
+  };
+
   preset::Preset preset_;
   Layout layout_;
   std::vector<Target> targets_, best_;
@@ -338,6 +364,8 @@ private:
   double method_seconds_ = 0, judge_seconds_ = 0;
   std::shared_ptr<const Solid> solid_; ///< from when the slopes are found
   std::optional<Judge> judge_;
+  Viewed viewed_;
+  std::shared_ptr<const job::Picture> in_view_; ///< of what viewed_ says
   bool conflict_known_ = false;
   std::shared_ptr<const job::Picture> conflict_; ///< where known
   std::optional<Conflicts> conflicts_;           ///< the same, once the slopes are found

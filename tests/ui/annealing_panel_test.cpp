@@ -80,10 +80,28 @@ TEST_F(AnnealingPanelTest, ALogAxisHasFourDecadesAtMost)
 TEST_F(AnnealingPanelTest, EveryReceiverHasItsPictures)
 {
   run_through(test::inverse_text(2));
-  for (const char* name : {"target_1", "receiver_1", "difference_1", "target_2", "receiver_2", "difference_2", "slopes", "conflict"})
+  for (const char* name :
+       {"target_1", "best_1", "receiver_1", "difference_1", "target_2", "best_2", "receiver_2", "difference_2", "slopes", "conflict"})
     EXPECT_GT(panel().area_of(name)[2], 50) << name;
   EXPECT_LT(panel().area_of("target_1")[1], panel().area_of("receiver_1")[1]);
   EXPECT_LT(panel().area_of("target_1")[0], panel().area_of("target_2")[0]);
+}
+
+// The View has the object; held against something, the sheet of pictures. A drag turns it, and the run goes on.
+TEST_F(AnnealingPanelTest, TheViewShowsTheObjectAndTurnsIt)
+{
+  run_through(test::inverse_text(1));
+  const auto before = workbench.run().snapshot();
+  EXPECT_EQ(workbench.comparing().source(), before->in_view);
+  const preset::Camera seen_by = engine::camera_of(*workbench.preset());
+  drag(0, 60, 0);
+  EXPECT_TRUE(until([&] { return workbench.run().snapshot()->in_view->rgb != before->in_view->rgb; }));
+  EXPECT_EQ(runs.made, 1);
+  const preset::Camera& turned = workbench.preset()->scene.camera; // about the object, from where it was seen
+  EXPECT_NEAR(turned.position[2], seen_by.position[2], 1e-6);
+  EXPECT_GT(std::abs(turned.position[0] - seen_by.position[0]), 10);
+  apply({command::PinRun{}, command::Arrange{Arrangement::side_by_side}});
+  EXPECT_EQ(workbench.comparing().source(), workbench.run().snapshot()->picture);
 }
 
 // By hand: the light of a facet at p with slope s is at p + s d, in cells from the receiver's top left corner.

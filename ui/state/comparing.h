@@ -110,6 +110,7 @@ private:
     std::string why_not = {}; ///< there is none
   };
   Side side_of(const PinnedRun& pin) const;
+  std::shared_ptr<const job::Picture> run_picture() const;
   Side run_side() const;
   Side side() const;
   Side other_side() const;

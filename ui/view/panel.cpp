@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/panel.h"
 
+#include "engine/engine.h"
 #include "ui/view/bars.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
@@ -274,7 +275,7 @@ void ViewPanel::start_drag(const Context& context)
   if (!is_of_camera && drag_ != Drag::mark) drag_ = Drag::move_picture;
   drag_from_ = pointer();
   moved_ = false;
-  camera_at_start_ = context.preset()->scene.camera;
+  camera_at_start_ = engine::camera_of(*context.preset());
   look_at_start_ = context.chosen.look;
   gestures_.begin();
 }
@@ -342,7 +343,7 @@ void ViewPanel::use_wheel(const Context& context)
   last_wheel_s_ = now;
   const double factor = std::pow(notch, -io.MouseWheel);
   context.edit(
-      "distance of the camera", [&](preset::Preset& p) { p.scene.camera = dolly(p.scene.camera, factor); }, gestures_.number());
+      "distance of the camera", [&](preset::Preset& p) { p.scene.camera = dolly(engine::camera_of(p), factor); }, gestures_.number());
 }
 
 } // namespace nephroid::ui

@@ -130,7 +130,7 @@ Target photograph(const std::filesystem::path& file, const Picture& picture, con
         }
     }
   });
-  if (high == 0) throw bad_input(file.string(), "is black or transparent all over", "expected a picture with some light in it");
+  if (high == 0) throw bad_input(file.string(), "is black all over or transparent", "expected a picture with some light in it");
   if (low == high)
     throw bad_input(file.string(), "is one grey all over", "expected a picture with an outline", "for a disc of light use a drawing");
   const auto [black, white] = picture.levels;
