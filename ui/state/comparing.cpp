@@ -101,8 +101,7 @@ Comparing::Side Comparing::side_of(const PinnedRun& pin) const
 std::shared_ptr<const job::Picture> Comparing::run_picture() const
 {
   const job::Snapshot& snapshot = *run_.snapshot();
-  const bool alone = comparison_.arrangement == Arrangement::single && !comparison_.flip && !comparison_.difference;
-  return alone && snapshot.in_view ? snapshot.in_view : snapshot.picture;
+  return shows_run_alone() && snapshot.in_view ? snapshot.in_view : snapshot.picture;
 }
 
 Comparing::Side Comparing::run_side() const

@@ -45,6 +45,20 @@ void draw_marks(const Chosen& chosen, const Placement& placement, const std::arr
     draw_frame(placement, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::on_dark, 5);
 }
 
+/// What a panel shows in the picture (command::ShowLines), with a dark rim.
+void draw_lines(const Context& context, const Placement& placement, const std::array<int, 2>& picture)
+{
+  if (context.chosen.lines.empty() || !context.preset() || !context.comparing.shows_run_alone()) return;
+  const auto sight = make_sight(engine::camera_of(*context.preset()), placement, picture);
+  if (!sight) return;
+  for (const auto& [colour, width] : {std::pair{colour::outline, 3.0f}, std::pair{colour::accent, 1.5f}})
+    for (const std::vector<preset::Vec3>& line : context.chosen.lines)
+      for (std::size_t i = 1; i < line.size(); ++i) {
+        const auto from = sight->to_screen(to_vector(line[i - 1])), to = sight->to_screen(to_vector(line[i]));
+        if (from && to) ImGui::GetWindowDrawList()->AddLine(vec(*from), vec(*to), colour, width * scale());
+      }
+}
+
 } // namespace
 
 void ViewPanel::draw(const Context& context)
@@ -173,6 +187,7 @@ void ViewPanel::draw_pictures(const Context& context)
   };
   within(seen_first_, [&] {
     draw_picture(shown_, first_, first);
+    draw_lines(context, first, shown_.size);
     overlay_.draw(context, canvas_, shown_.size, hovered_ && !on_second_);
   });
   use_mouse(context); // after the handles, which have it first

@@ -69,6 +69,8 @@ void AnnealingPanel::follow(const Context& context)
   const job::Picture* slopes = pictures_.find("slopes");
   beam_.reset();
   if (facet_ && layout_ && slopes) beam_ = facet_beam(*slopes, *layout_, *facet_);
+  auto lines = beam_ ? lines_of(*beam_, *layout_) : std::vector<std::vector<preset::Vec3>>();
+  if (lines != context.chosen.lines) context.push(command::ShowLines{std::move(lines)});
 }
 
 void AnnealingPanel::draw_toolbar(const Context& context)
