@@ -172,6 +172,22 @@ TEST(BestPossible, IsAsSoftAsTheLightOfAFacet)
   EXPECT_LT(found, 1.3 * possible);
 }
 
+// A picture that is dropped on the window: what can come of it is there before any step.
+TEST_F(Photographs, ArePreviewedAtOnce)
+{
+  preset::Preset p = preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"facets": [32, 32],
+    "cells": [8, 8], "index": 1.5, "receivers": [{"distance_mm": 200, "picture": {"type": "ring"}}]}})",
+                                          "p.json");
+  const auto job = make_job(p, make_plan(p));
+  std::vector<float> greys(64);
+  for (std::size_t i = 0; i < 64; ++i) greys[i] = static_cast<float>(i) / 63;
+  engine::engine_of(p).take_picture(p, write(8, 8, greys));
+  ASSERT_TRUE(job->adopt(p));
+  const job::Snapshot made = job->snapshot();
+  const auto best = std::ranges::find(made.pictures, "best_1", &job::NamedPicture::name)->picture;
+  for (std::size_t i = 0; i < 64; ++i) EXPECT_NEAR(best->rgb[3 * i], greys[i], 1e-6);
+}
+
 class PictureNotes : public Photographs {
 protected:
   /// Of one picture, 1 / 16 of it white.
@@ -189,8 +205,8 @@ protected:
 TEST_F(PictureNotes, SayWhatAPhotographComesTo)
 {
   EXPECT_THAT(notes("}}]"), ElementsAre(AllOf(HasSubstr("picture 1 is dark"), HasSubstr("gets 16 times that of an even picture"),
-                                             HasSubstr("a 'background' of 0.20 more makes that 4")),
-                                       HasSubstr("choose the method 'lens'")));
+                                              HasSubstr("a 'background' of 0.20 more makes that 4")),
+                                        HasSubstr("choose the method 'lens'")));
   // The background that it asks for leaves the other note alone.
   EXPECT_THAT(notes(R"(, "background": 0.2}}])"), ElementsAre(HasSubstr("choose the method 'lens'")));
   EXPECT_THAT(notes(R"(, "background": 0.2}}], "scatter_deg": 1)"), Contains(HasSubstr("comes hardly closer than")));

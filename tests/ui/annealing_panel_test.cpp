@@ -41,7 +41,9 @@ TEST_F(AnnealingPanelTest, EveryCurveOfTheRunIsPlottedLogOrLinear)
   EXPECT_EQ(cost.x, "sweep");
   std::vector<std::string> names;
   for (const HistoryLine& line : cost.lines) names.push_back(line.name);
-  EXPECT_THAT(names, ElementsAre("cost", "cost_all", "rel_l2", "missed"));
+  EXPECT_THAT(names, ElementsAre("cost", "cost_all", "rel_l2", "missed", "judged"));
+  EXPECT_THAT(cost.lines[4].x, ElementsAre(3));
+  EXPECT_NEAR(cost.lines[4].y[0], cost.lines[0].y.back(), 0.1 * cost.lines[0].y.back());
   EXPECT_THAT(cost.lines[0].x, ElementsAre(0, 1, 2, 3));
   EXPECT_LT(cost.lines[0].y.back(), 0.5 * cost.lines[0].y.front());
   click_widget("over seconds");

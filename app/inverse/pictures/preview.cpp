@@ -163,6 +163,8 @@ double estimated_relief(const Layout& layout, const Target& target)
   const auto reduced = [](const glm::ivec2& from) { return glm::max(from * most / std::max({from.x, from.y, most}), 2); };
   coarse.facets = reduced(layout.facets);
   coarse.cells = reduced(layout.cells);
+  coarse.incoming.clear(); // a table of the many facets: light straight on makes the same relief
+  coarse.lamp.reset();
   Target wanted(coarse.cell_count());
   for (std::size_t c = 0; c < target.size(); ++c) wanted[*coarse.cell_at(layout.middle_of_cell(c))] += target[c];
   Lens lens(coarse, wanted, {});
@@ -192,7 +194,8 @@ std::vector<std::string> picture_notes(const Settings& settings, const Layout& l
   }
   const bool one_photograph = targets.size() == 1 && settings.receivers[0].picture.type == Picture::Type::file;
   if (settings.method == Settings::Method::assign && one_photograph)
-    notes.push_back("a photograph by flat facets shows their edges as threads and rings; for one picture choose the method 'lens'");
+    notes.push_back(
+        "flat facets cast patches of their own size, which a photograph shows as grain or rings; for one picture choose the method 'lens'");
   if (settings.method == Settings::Method::lens)
     if (const double relief = estimated_relief(layout, targets[0]); relief > deep * layout.thickness)
       notes.push_back(fmt::format("the lens becomes some {:.2g} mm deep, and the object is {} mm thick; choose a receiver further away, a "

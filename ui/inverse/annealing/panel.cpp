@@ -91,6 +91,9 @@ void AnnealingPanel::draw_histories()
     for (const job::Curve& curve : snapshot_->curves)
       if (curve.columns.front() == snapshot_->progress.units.step) // others, as the frames' distances, are not of the search
         histories_.push_back(history_lines(curve, look_));
+  for (HistoryLines& lines : histories_) // what the judge says stands after the last step
+    if (const double judged = job::scalar(*snapshot_, "judged", lines.name); std::isfinite(judged) && !lines.lines.front().x.empty())
+      lines.lines.push_back({"judged", {lines.lines.front().x.back()}, {judged}});
   const float height = std::max(8 * em(), 0.19f * ImGui::GetWindowHeight());
   if (histories_.empty()) {
     draw_hint(colour::quiet_text, ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, height}, "The search has not begun");
