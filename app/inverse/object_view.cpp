@@ -52,7 +52,7 @@ public:
     const dvec3 first = glm::min(a, b), last = glm::max(a, b);
     const double enter = std::max({first.x, first.y, first.z, 0.0}), leave = std::min({last.x, last.y, last.z});
     const dvec3 beside = backdrop(d) + sheets(from, d, without_end);
-    if (enter >= leave) return beside;
+    if (!(enter < leave)) return beside;
     dvec3 at = from + enter * d, out(0);
     if (at.z < surface(at).z) { // still in the air below the facets
       const auto met = way_from_below(at, d, leave - enter);
@@ -132,7 +132,7 @@ private:
         out = dvec3(0);
         out[axis] = d[axis] > 0 ? 1 : -1;
       }
-      if (const double t = d.z > 0 ? (l_.thickness - from.z) / d.z : d.z < 0 ? way_to_facets(from, d) : way; t < way) {
+      if (const double t = d.z > 0 ? (l_.thickness - from.z) / d.z : d.z < -1e-9 ? way_to_facets(from, d) : way; t < way) {
         way = t;
         out = d.z > 0 ? dvec3(0, 0, 1) : surface(from + t * d).normal;
       }

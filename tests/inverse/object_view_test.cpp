@@ -55,6 +55,24 @@ TEST(ObjectView, AFacetShowsWhereItsLightGoes)
   for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(red(*scene.seen_by(along_the_light()), i) > 0.5f, i == 9) << i;
 }
 
+// Into its sides, along its front, from inside of it and from its own target, which sees nothing: none of these falls out of the object.
+TEST(ObjectView, ACameraMayBeAnywhere)
+{
+  const Scene scene;
+  for (const auto& [position, target] : std::vector<std::pair<preset::Vec3, preset::Vec3>>{{{-300, 0, 5}, {0, 0, 5}},
+                                                                                           {{0, 0, 5}, {0, 0, 0}},
+                                                                                           {{0, -300, 10}, {0, 0, 10}},
+                                                                                           {{0, 0, 0}, {1, 0, 0}},
+                                                                                           {{0, 0, 5}, {0, 0, 5}}}) {
+    preset::Camera camera = along_the_light();
+    camera.position = position;
+    camera.target = target;
+    camera.fov_deg = 60;
+    camera.resolution = {33, 33};
+    EXPECT_THAT(scene.seen_by(camera)->rgb, SizeIs(33 * 33 * 3));
+  }
+}
+
 // From below the receiver, past the object: the lit cell as it is, mirrored left to right.
 TEST(ObjectView, AReceiverIsSeenFromBothSides)
 {
