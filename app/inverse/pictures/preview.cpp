@@ -158,7 +158,7 @@ std::vector<Target> best_possible(const Layout& layout, const std::vector<Target
 
 double estimated_relief(const Layout& layout, const Target& target)
 {
-  constexpr int most = 48, steps = 20;
+  constexpr int most = 32, steps = 20;
   Layout coarse = layout;
   const auto reduced = [](const glm::ivec2& from) { return glm::max(from * most / std::max({from.x, from.y, most}), 2); };
   coarse.facets = reduced(layout.facets);
