@@ -16,7 +16,7 @@ namespace nephroid::inverse {
 /// Light that falls on a facet's middle through the flat front.
 struct Incoming {
   glm::dvec2 sines{0};  ///< x and y of its unit direction before the front: see bending.h
-  glm::dvec2 around{0}; ///< a typical gradient of facets here: of one that lights the middle of the last receiver
+  glm::dvec2 around{0}; ///< the facet's gradient as its neighbours see it; at first of one that lights the middle of the last receiver
   double power = 1;     ///< on the facet as if it lay flat, over the mean of all facets
   glm::dmat2 spread{0}; ///< of the sines over x and y: a lamp's light falls on each place of the facet from another side
 };

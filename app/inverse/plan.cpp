@@ -66,7 +66,7 @@ InversePlan make_plan(const preset::Preset& preset)
   plan.layers = 1;
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
   plan.passes = passes_of(settings(preset), l);
-  plan.buffers = {{"light on the facets (host)", sizeof(Incoming) * l.incoming.size(), true},
+  plan.buffers = {{"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming.size(), true},
                   {"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
                   {"what the pictures lack, for each of a batch (host)",
                    settings(preset).method == Settings::Method::assign ? (1 + Assignment::batch) * lack_bytes(l) : 0, true},

@@ -15,11 +15,8 @@ std::vector<double> light_of(const Layout& layout, const std::vector<glm::dvec2>
 {
   std::vector<double> light(layout.cell_count());
   for (std::size_t f = 0; f < slopes.size(); ++f) {
-    const inverse::Footprint print = inverse::footprint(layout, f, slopes[f], receiver);
-    for (std::size_t k = 0; k < print.y.size(); ++k)
-      for (std::size_t i = 0; i < print.x.size(); ++i)
-        light[(static_cast<std::size_t>(print.y0) + k) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(print.x0) +
-              i] += inverse::facet_power(layout, f, slopes[f]) * print.x[i] * print.y[k];
+    for_cells(layout, inverse::footprint(layout, f, slopes[f], receiver),
+              [&](std::size_t cell, double part) { light[cell] += inverse::facet_power(layout, f, slopes[f]) * part; });
   }
   return light;
 }

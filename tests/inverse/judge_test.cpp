@@ -221,12 +221,8 @@ std::vector<double> drawn(const Layout& layout, std::size_t facet, const glm::dv
 
 std::vector<double> computed(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height = 0)
 {
-  const inverse::Footprint print = inverse::footprint(layout, facet, slope, receiver, height);
   std::vector<double> cells(layout.cell_count());
-  for (std::size_t k = 0; k < print.y.size(); ++k)
-    for (std::size_t i = 0; i < print.x.size(); ++i)
-      cells[(static_cast<std::size_t>(print.y0) + k) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(print.x0) + i] =
-          print.x[i] * print.y[k];
+  for_cells(layout, inverse::footprint(layout, facet, slope, receiver, height), [&](std::size_t cell, double part) { cells[cell] = part; });
   return cells;
 }
 

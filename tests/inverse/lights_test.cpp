@@ -77,15 +77,24 @@ TEST(Lights, ASlopeChangesWithLightAndIndexAsRaysDo)
   EXPECT_NEAR(glm::length(change.by_index - expected), 0, 1e-6);
 }
 
+/// Light in each column of a receiver, or in each row.
+std::vector<double> lines_of(const Layout& layout, const inverse::Footprint& print, bool along_x)
+{
+  const auto columns = static_cast<std::size_t>(layout.cells.x);
+  std::vector<double> lines(along_x ? columns : static_cast<std::size_t>(layout.cells.y));
+  for_cells(layout, print, [&](std::size_t cell, double part) { lines[along_x ? cell % columns : cell / columns] += part; });
+  return lines;
+}
+
 // From a lamp at a before a slab of T, light at the axis goes as from a + T / n: a flat facet's beam grows by (a + T / n + d) over that.
 TEST(Lights, ALampsBeamGrowsWithDistance)
 {
   Layout layout{.size = {5, 5}, .facets = {5, 5}, .receiver = {40, 40}, .cells = {400, 400}, .distances = {60, 300}};
   layout = with(layout, lamp(200));
   for (const std::size_t receiver : {0u, 1u}) {
-    const inverse::Footprint print = footprint(layout, 12, {0, 0}, receiver);
+    const std::vector<double> columns = lines_of(layout, footprint(layout, 12, {0, 0}, receiver), true);
     const double from = 200 + 10 / 1.5;
-    const double most = *std::max_element(print.x.begin(), print.x.end());
+    const double most = *std::max_element(columns.begin(), columns.end());
     EXPECT_NEAR(0.1 / most, (from + layout.distances[receiver]) / from, 1e-3); // a cell is 0.1 mm
   }
 }
@@ -172,10 +181,9 @@ void expect_same_spot(const Layout& layout, const glm::dvec2& slope, double tole
   const inverse::Footprint print = footprint(layout, 0, slope, 0);
   for (const bool along_x : {true, false}) {
     const auto cells = static_cast<std::size_t>(layout.cells.x);
-    std::vector<double> rays(cells), believed(cells);
+    const std::vector<double> believed = lines_of(layout, print, along_x);
+    std::vector<double> rays(cells);
     for (std::size_t c = 0; c < layout.cell_count(); ++c) rays[along_x ? c % cells : c / cells] += judge.light(0)[c];
-    const std::vector<double>& parts = along_x ? print.x : print.y;
-    for (std::size_t i = 0; i < parts.size(); ++i) believed[static_cast<std::size_t>(along_x ? print.x0 : print.y0) + i] = parts[i];
     const Moments is = moments(believed), truth = moments(rays);
     EXPECT_NEAR(is.mean, truth.mean, 0.2); // cells of half a millimetre; the disc and the band are not quite even about their middles
     EXPECT_NEAR(is.variance / truth.variance, 1, tolerance) << along_x;
@@ -190,7 +198,8 @@ TEST(Lights, ASteepFacetWidensTheSun)
   Layout layout = one_facet();
   layout.sun_radius = 0.03;
   expect_same_spot(layout, {0.45, 0.1}, 0.03);
-  const double flat = moments(footprint(layout, 0, {0, 0}, 0).x).variance, steep = moments(footprint(layout, 0, {0.45, 0}, 0).x).variance;
+  const auto variance = [&](const glm::dvec2& slope) { return moments(lines_of(layout, footprint(layout, 0, slope, 0), true)).variance; };
+  const double flat = variance({0, 0}), steep = variance({0.45, 0});
   EXPECT_GT(steep, 2 * flat);
 }
 
@@ -199,7 +208,8 @@ TEST(Lights, ABandOfWavelengthsPartsAlongTheSlope)
   Layout layout = one_facet();
   for (int i = 0; i < 16; ++i) layout.indices.push_back(1.5 + 0.08 * ((i + 0.5) / 16 - 0.5));
   expect_same_spot(layout, {0.4, 0.2}, 0.05);
-  EXPECT_LT(moments(footprint(layout, 0, {0.4, 0}, 0).y).variance, 0.1 * moments(footprint(layout, 0, {0.4, 0}, 0).x).variance);
+  const auto variance = [&](bool along_x) { return moments(lines_of(layout, footprint(layout, 0, {0.4, 0}, 0), along_x)).variance; };
+  EXPECT_LT(variance(false), 0.1 * variance(true));
 }
 
 TEST(Lights, ThatCannotBeAreRefused)

@@ -145,8 +145,12 @@ TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
     const glm::dvec2 at = spot(x, y, facets, distance);
     const inverse::Footprint& print = beam.prints[j];
     double middle_x = 0, middle_y = 0;
-    for (std::size_t i = 0; i < print.x.size(); ++i) middle_x += print.x[i] * (print.x0 + static_cast<double>(i) + 0.5);
-    for (std::size_t k = 0; k < print.y.size(); ++k) middle_y += print.y[k] * (print.y0 + static_cast<double>(k) + 0.5);
+    for (int k = 0; k < print.rows; ++k)
+      for (int i = 0; i < print.columns; ++i) {
+        const double part = print.cells[inverse::index_at(i, k, print.columns)];
+        middle_x += part * (print.x0 + i + 0.5);
+        middle_y += part * (print.y0 + k + 0.5);
+      }
     EXPECT_NEAR(part_on(print), 1, 1e-9) << "it is on the receiver";
     EXPECT_NEAR(middle_x, (at.x + 50) / 100 * 12, 0.5);
     EXPECT_NEAR(middle_y, (50 - at.y) / 100 * 12, 0.5);
@@ -158,11 +162,7 @@ TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
     for (int u = 0; u < facets; ++u) {
       const auto one = facet_beam(slopes, layout, {u, v});
       ASSERT_TRUE(one);
-      const inverse::Footprint& print = one->prints[1];
-      for (std::size_t k = 0; k < print.y.size(); ++k)
-        for (std::size_t i = 0; i < print.x.size(); ++i)
-          light[(static_cast<std::size_t>(print.y0) + k) * 12 + static_cast<std::size_t>(print.x0) + i] +=
-              one->power * print.x[i] * print.y[k];
+      for_cells(layout, one->prints[1], [&](std::size_t cell, double part) { light[cell] += one->power * part; });
     }
   const job::Picture &shown = picture("receiver_2"), &wanted = picture("target_2");
   double sum = 0, shown_sum = 0, apart = 0;

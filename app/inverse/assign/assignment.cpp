@@ -15,8 +15,9 @@
 namespace nephroid::inverse {
 
 Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
-    : layout_(layout), targets_(targets), seed_(seed), weights_(picture_weights(layout, targets)), heights_(layout.facet_count()),
-      search_(layout, weights_, heights_), slopes_(layout.facet_count()), light_(targets.size(), std::vector<double>(layout.cell_count()))
+    : given_(layout), layout_(layout), targets_(targets), seed_(seed), weights_(picture_weights(layout, targets)),
+      heights_(layout.facet_count()), search_(layout_, weights_, heights_), slopes_(layout.facet_count()),
+      light_(targets.size(), std::vector<double>(layout.cell_count()))
 {
   std::mt19937_64 random(seed_);
   const double last = layout.distances.back();
@@ -24,13 +25,15 @@ Assignment::Assignment(const Layout& layout, const std::vector<Target>& targets,
     const glm::dvec2 to = (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
     slopes_[i] = nearest_reachable((to - layout.middle(i)) / last, layout.n, layout.sines_on(i), layout.steepest);
   }
-  layout_.free_heights ? raise() : light_all(layout_, slopes_, heights_, light_);
+  settle();
   residual_ = residual();
   begin_sweep();
 }
 
 void Assignment::relight()
 {
+  layout_.distances = given_.distances;
+  layout_.weights = given_.weights;
   weights_ = picture_weights(layout_, targets_);
   search_.weigh(weights_);
   light_all(layout_, slopes_, heights_, light_);
@@ -50,10 +53,13 @@ void Assignment::begin_sweep()
   search_.aim({uniform(random), uniform(random)});
 }
 
-/// Facets stand where their walls are lowest for the slopes that they have; their light falls from there.
-void Assignment::raise()
+/// Facets stand where their walls are lowest for the slopes that they have; their light falls from there. Those in one plane see their
+/// neighbours as these are now, in whose shadows they lie.
+void Assignment::settle()
 {
-  heights_ = heights_of(layout_, slopes_);
+  if (layout_.free_heights) heights_ = heights_of(layout_, slopes_);
+  for (std::size_t i = 0; i < layout_.incoming.size(); ++i)
+    layout_.incoming[i].around = facet_gradient(slopes_[i], layout_.n, layout_.incoming[i].sines);
   light_all(layout_, slopes_, heights_, light_);
 }
 
@@ -91,11 +97,10 @@ std::vector<Lack> Assignment::lacks_without(const std::vector<Lack>& lacks, std:
   for (std::size_t j = 0; j < all.size(); ++j) {
     Lack& lack = all[j];
     const Footprint print = footprint(layout_, facet, slope, j, heights_[facet]);
-    for (std::size_t k = 0; k < print.y.size(); ++k)
-      for (std::size_t i = 0; i < print.x.size(); ++i) {
-        const int x = print.x0 + static_cast<int>(i) + lack.rim, y = print.y0 + static_cast<int>(k) + lack.rim;
-        lack.values[index_at(x, y, lack.width)] -= static_cast<float>(2 * weights_[j] * light * print.x[i] * print.y[k]);
-      }
+    for (int k = 0; k < print.rows; ++k)
+      for (int i = 0; i < print.columns; ++i)
+        lack.values[index_at(print.x0 + i + lack.rim, print.y0 + k + lack.rim, lack.width)] -=
+            static_cast<float>(2 * weights_[j] * light * print.cells[index_at(i, k, print.columns)]);
   }
   return all;
 }
@@ -116,7 +121,7 @@ void Assignment::refine()
   tried_ += slopes_.size();
   if (!refinement_->finished()) return;
   ++sweeps_;
-  if (layout_.free_heights) raise();
+  if (layout_.free_heights || !layout_.incoming.empty()) settle();
 }
 
 void Assignment::advance()
@@ -138,7 +143,7 @@ void Assignment::advance()
   if (next_ < slopes_.size()) return;
   next_ = 0;
   ++sweeps_;
-  if (layout_.free_heights) raise();
+  if (layout_.free_heights || !layout_.incoming.empty()) settle();
   const double before = std::exchange(residual_, residual());
   constexpr double worth_a_sweep = 0.01; // a sweep that lowers the sum of squares by a smaller part of it is the last
   if (residual_ > (1 - worth_a_sweep) * before) {
@@ -169,6 +174,10 @@ void Assignment::state(State& state)
   state.value(residual_);
   state.items(slopes_);
   if (layout_.free_heights) state.items(heights_);
+  for (Incoming& in : layout_.incoming) {
+    state.value(in.around.x);
+    state.value(in.around.y);
+  }
   for (auto& light : light_) state.items(light);
   state.value(converged_);
   bool refines = refinement_.has_value();

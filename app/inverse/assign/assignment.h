@@ -71,7 +71,7 @@ public:
 
 private:
   void begin_sweep();
-  void raise();
+  void settle();
   void put(std::size_t facet, double sign);
   void refine();
   double smoothing_weight() const;
@@ -80,7 +80,8 @@ private:
   std::vector<Lack> lacks_without(const std::vector<Lack>& lacks, std::size_t facet) const;
   glm::dvec2 look(std::size_t facet, const std::vector<Lack>& lacks) const;
 
-  const Layout& layout_;
+  const Layout& given_;
+  Layout layout_; ///< the same, but that facets see their neighbours as they are
   const std::vector<Target>& targets_;
   std::uint64_t seed_;
   std::vector<double> weights_;

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "inverse/bending.h"
 
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_access.hpp>
 
 #include <algorithm>
@@ -14,21 +15,12 @@ namespace {
 
 double half_square(double t) { return t > 0 ? t * t / 2 : 0; }
 
-/// The parts of the cells of a row of `cells` that a beam covers.
-std::vector<double> parts(const Beam& beam, int cells, int& first)
+/// The cells of a row of so many that beams between two places can touch: the first one and the one behind the last. Far off no int
+/// would hold a cell.
+glm::ivec2 touched(double from, double to, int cells)
 {
-  const double reach = (beam.width + beam.blur) / 2;
-  const double end = cells; // far off no int would hold the cell
-  first = static_cast<int>(std::clamp(std::floor(beam.middle - reach), 0.0, end));
-  const int last = static_cast<int>(std::clamp(std::ceil(beam.middle + reach), static_cast<double>(first), end));
-  std::vector<double> covered;
-  double before = part_before(beam, first);
-  for (int i = first; i < last; ++i) {
-    const double after = part_before(beam, i + 1);
-    covered.push_back(after - before);
-    before = after;
-  }
-  return covered;
+  const double end = cells, first = std::clamp(std::floor(from), 0.0, end);
+  return {static_cast<int>(first), static_cast<int>(std::clamp(std::ceil(to), first, end))};
 }
 
 /// The part of a facet whose light reaches the receivers: its middle and size in parts of the facet.
@@ -36,20 +28,112 @@ struct LitPart {
   glm::dvec2 middle{0}, size{1};
 };
 
-/// inside: the slope of the light in the object. g: the facet's gradient.
-LitPart lit_part(const Incoming& in, const glm::dvec2& inside, const glm::dvec2& slope, const glm::dvec2& g)
+/// The mean over v = -1/2 .. 1/2 of a + b v where that is above 0.
+double mean_above_0(double a, double b)
 {
-  const glm::dvec2 step = (g + in.around) / 2.0;
-  const glm::dvec2 shadow = glm::max(inside * step, glm::dvec2(0)) / std::max(0.1, 1 + glm::dot(inside, g));
-  const glm::dvec2 stopped = glm::max(slope * step, glm::dvec2(0)) / std::max(0.1, 1 + glm::dot(slope, g));
-  return {(glm::sign(inside) * shadow - glm::sign(slope) * stopped) / 2.0, glm::max(1.0 - shadow - stopped, glm::dvec2(0))};
+  b = std::abs(b);
+  return std::abs(a) >= b / 2 ? std::max(a, 0.0) : (a + b / 2) * (a + b / 2) / (2 * b);
 }
 
-double index_variance(const Layout& layout)
+/// inside: the slope of the light in the object. g: the facet's gradient.
+LitPart lit_part(const Layout& layout, std::size_t facet, const glm::dvec2& inside, const glm::dvec2& slope, const glm::dvec2& g)
 {
-  double sum = 0;
-  for (const double n : layout.indices) sum += (n - layout.n) * (n - layout.n);
-  return layout.indices.empty() ? 0 : sum / static_cast<double>(layout.indices.size());
+  const auto columns = static_cast<std::size_t>(layout.facets.x);
+  const glm::ivec2 at(facet % columns, facet / columns);
+  const glm::dvec2 size = layout.facet();
+  // In parts of the facet's width: what a neighbour hides of light with this slope, which comes from its side or goes there.
+  const auto hidden = [&](const glm::dvec2& light, int axis, int side) {
+    glm::ivec2 to = at;
+    to[axis] += axis == 0 ? side : -side; // rows count downwards
+    if (to.x < 0 || to.y < 0 || to.x >= layout.facets.x || to.y >= layout.facets.y) return 0.0;
+    const glm::dvec2 h = layout.incoming[index_at(to.x, to.y, layout.facets.x)].around;
+    const int other = 1 - axis;
+    return mean_above_0(light[axis] * (g[axis] + h[axis]) / 2, light[axis] * (g[other] - h[other]) * size[other] / size[axis]) /
+           std::max(0.1, 1 + glm::dot(light, g));
+  };
+  LitPart lit;
+  for (int axis = 0; axis < 2; ++axis) {
+    const int from = inside[axis] > 0 ? -1 : 1, towards = slope[axis] > 0 ? 1 : -1;
+    const double shadow = hidden(inside, axis, from), stopped = hidden(slope, axis, towards);
+    lit.middle[axis] = -(from * shadow + towards * stopped) / 2;
+    lit.size[axis] = std::max(0.0, 1 - shadow - stopped);
+  }
+  return lit;
+}
+
+/// A blur in slopes: shifts of equal parts of the light, and the variance along x and along y that is left of each.
+struct Blur {
+  int count = 1;
+  std::array<glm::dvec2, Beams::most> shifts{};
+  glm::dvec2 variance{0};
+};
+
+/// A line of indices is cut until its pieces, and a disc is points where it is wider, in parts of a cell.
+constexpr double piece_in_cells = 0.25, wide_in_cells = 0.5;
+
+/// Indices in groups of neighbours: the line between the outermost, cut into at most so many pieces.
+void part_colours(const Layout& layout, const glm::dvec2& by_index, double longest, int most, Blur& blur)
+{
+  const auto indices = static_cast<int>(layout.indices.size());
+  const double length = glm::length(by_index) * std::abs(layout.indices.back() - layout.indices.front());
+  int count = 1;
+  while (2 * count <= std::min(most, indices) && length > longest * count) count *= 2;
+  double within = 0;
+  for (int k = 0; k < count; ++k) {
+    const int first = k * indices / count, last = (k + 1) * indices / count;
+    double mean = 0, square = 0;
+    for (int i = first; i < last; ++i) {
+      const double over = layout.indices[static_cast<std::size_t>(i)] - layout.n;
+      mean += over / (last - first);
+      square += over * over / (last - first);
+    }
+    blur.shifts[static_cast<std::size_t>(k)] = mean * by_index;
+    within += (square - mean * mean) / count;
+  }
+  blur.count = count;
+  blur.variance += within * by_index * by_index;
+}
+
+/// Each beam becomes `points`, evenly spread over a disc, four at a time to four sides (a sunflower's golden angle between the fours).
+/// spread: a variance of 1 becomes that of the blur.
+void part_disc(const glm::dmat2& spread, int points, Blur& blur)
+{
+  const double left = points > 4 ? 0.1 : 0.2; // of the variance, for a box about each point
+  constexpr double golden_angle = 2.399963229728653;
+  for (int k = blur.count - 1; k >= 0; --k) {
+    const glm::dvec2 middle = blur.shifts[static_cast<std::size_t>(k)];
+    for (int i = 0; i < points; ++i) { // of a disc of variance 1, whose radius is 2
+      const double r = 2 * std::sqrt((1 - left) * (i / 4 + 0.5) / (points / 4)),
+                   phi = i / 4 * golden_angle + i % 4 * glm::half_pi<double>();
+      blur.shifts[static_cast<std::size_t>(points * k + i)] = middle + spread * (r * glm::dvec2(std::cos(phi), std::sin(phi)));
+    }
+  }
+  blur.count *= points;
+  const glm::dvec2 x = glm::row(spread, 0), y = glm::row(spread, 1);
+  blur.variance += left * glm::dvec2(glm::dot(x, x), glm::dot(y, y));
+}
+
+/// fine: a cell as a slope.
+Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, double fine)
+{
+  Blur blur;
+  if (!(layout.scatter > 0 || layout.sun_radius > 0 || !layout.indices.empty())) return blur;
+  const SlopeChange change = slope_change(slope, layout.n, in.sines);
+  // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
+  const double sun = layout.sun_radius / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
+  const glm::dmat2 disc = sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
+  const glm::dmat2 both = disc * glm::transpose(disc) + glm::dmat2(layout.scatter * layout.scatter); // covariance
+  const bool is_wide = std::sqrt(12 * (both[0][0] + both[1][1]) / 2) > wide_in_cells * fine;
+  if (!layout.indices.empty()) part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
+  if (is_wide) {
+    glm::dmat2 root(0); // of the covariance: root root^T
+    root[0][0] = std::sqrt(both[0][0]);
+    root[0][1] = both[0][1] / root[0][0];
+    root[1][1] = std::sqrt(std::max(0.0, both[1][1] - root[0][1] * root[0][1]));
+    part_disc(root, blur.count == 1 ? Beams::most : 4, blur);
+  } else
+    blur.variance += glm::dvec2(both[0][0], both[1][1]);
+  return blur;
 }
 
 } // namespace
@@ -69,41 +153,68 @@ double blur_width(const Layout& layout, double distance)
   return std::sqrt(12 * (sun * sun + rough * rough));
 }
 
-Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height)
+Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height)
 {
   const Incoming in = layout.incoming.empty() ? Incoming{} : layout.incoming[facet];
   const glm::dvec2 g = facet_gradient(slope, layout.n, in.sines), size = layout.facet(), cell = layout.cell();
   const double distance = layout.distances[receiver] + height;
+  const Blur blur = blur_of(layout, in, slope, std::min(cell.x, cell.y) / distance);
   glm::dmat2 map = glm::dmat2(1) + glm::outerProduct(slope, g);
   LitPart lit;
-  glm::dvec2 variance(layout.scatter * layout.scatter); // of the slope, along x and along y
   if (!layout.incoming.empty()) {
     const glm::dvec2 inside = slope_inside(in.sines, layout.n);
-    if (!layout.free_heights) lit = lit_part(in, inside, slope, g);
+    if (!layout.free_heights) lit = lit_part(layout, facet, inside, slope, g);
     if (layout.lamp)
       map += distance * slope_change(slope, layout.n, in.sines).by_sines * in.spread * (glm::dmat2(1) + glm::outerProduct(inside, g));
   }
-  if (layout.sun_radius > 0 || !layout.indices.empty()) {
-    const SlopeChange change = slope_change(slope, layout.n, in.sines);
-    const glm::dvec2 by_x = glm::row(change.by_sines, 0), by_y = glm::row(change.by_sines, 1);
-    // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
-    const auto disc = [&](const glm::dvec2& by) {
-      const double along = glm::dot(by, in.sines);
-      return layout.sun_radius * layout.sun_radius / 4 * (glm::dot(by, by) - along * along);
-    };
-    variance += glm::dvec2(disc(by_x), disc(by_y)) + index_variance(layout) * change.by_index * change.by_index;
-  }
   const glm::dvec2 at = layout.in_cells(layout.middle(facet) + map * (lit.middle * size) + slope * distance),
-                   blur = 12.0 * distance * distance * variance;
+                   box = 12.0 * distance * distance * blur.variance;
   const auto beam = [&](int axis) {
     const int other = 1 - axis;
     const double across = map[other][axis] * lit.size[other] * size[other];
     return Beam{at[axis], std::abs(map[axis][axis]) * lit.size[axis] * size[axis] / cell[axis],
-                std::sqrt(across * across + blur[axis]) / cell[axis]};
+                std::sqrt(across * across + box[axis]) / cell[axis]};
   };
-  Footprint print;
-  print.x = parts(beam(0), layout.cells.x, print.x0);
-  print.y = parts(beam(1), layout.cells.y, print.y0);
+  Beams beams{beam(0), beam(1), blur.count, {}};
+  for (int k = 0; k < blur.count; ++k)
+    beams.shifts[static_cast<std::size_t>(k)] = blur.shifts[static_cast<std::size_t>(k)] * distance / glm::dvec2(cell.x, -cell.y);
+  return beams;
+}
+
+Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height)
+{
+  const Beams beams = beams_of(layout, facet, slope, receiver, height);
+  glm::dvec2 low = beams.shifts[0], high = low;
+  for (int k = 1; k < beams.count; ++k) {
+    low = glm::min(low, beams.shifts[static_cast<std::size_t>(k)]);
+    high = glm::max(high, beams.shifts[static_cast<std::size_t>(k)]);
+  }
+  const glm::dvec2 middle(beams.x.middle, beams.y.middle),
+      reach = glm::dvec2(beams.x.width + beams.x.blur, beams.y.width + beams.y.blur) / 2.0;
+  low += middle - reach;
+  high += middle + reach;
+  const glm::ivec2 x = touched(low.x, high.x, layout.cells.x), y = touched(low.y, high.y, layout.cells.y);
+  Footprint print{x[0], y[0], x[1] - x[0], y[1] - y[0], {}};
+  print.cells.resize(static_cast<std::size_t>(print.columns) * static_cast<std::size_t>(print.rows));
+  std::vector<double> row(static_cast<std::size_t>(print.columns));
+  for (int k = 0; k < beams.count; ++k) {
+    const glm::dvec2 shift = beams.shifts[static_cast<std::size_t>(k)];
+    const auto before = [&](const Beam& beam, double moved, int cell) { return part_before(beam, cell - moved); };
+    double last = before(beams.x, shift.x, print.x0);
+    for (int i = 0; i < print.columns; ++i) {
+      const double next = before(beams.x, shift.x, print.x0 + i + 1);
+      row[static_cast<std::size_t>(i)] = (next - last) / beams.count;
+      last = next;
+    }
+    last = before(beams.y, shift.y, print.y0);
+    for (int j = 0; j < print.rows; ++j) {
+      const double next = before(beams.y, shift.y, print.y0 + j + 1), part = next - last;
+      last = next;
+      if (part == 0) continue;
+      double* const cells = print.cells.data() + index_at(0, j, print.columns);
+      for (int i = 0; i < print.columns; ++i) cells[i] += part * row[static_cast<std::size_t>(i)];
+    }
+  }
   return print;
 }
 
@@ -113,7 +224,7 @@ double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& sl
   if (layout.incoming.empty()) return transmitted(slope, n) / transmitted({0, 0}, n);
   const Incoming& in = layout.incoming[facet];
   const glm::dvec2 g = facet_gradient(slope, n, in.sines), inside = slope_inside(in.sines, n);
-  const glm::dvec2 lit = layout.free_heights ? glm::dvec2(1) : lit_part(in, inside, slope, g).size;
+  const glm::dvec2 lit = layout.free_heights ? glm::dvec2(1) : lit_part(layout, facet, inside, slope, g).size;
   return in.power * (1 + glm::dot(inside, g)) * lit.x * lit.y * transmitted(slope, n, in.sines) / transmitted({0, 0}, n);
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 #include "inverse/layout.h"
 
+#include <array>
+
 namespace nephroid::inverse {
 
 /// Along one axis, in cells: the beam is a box of `width` that another box of `blur` smears; a trapezoid.
@@ -17,33 +19,45 @@ double part_before(const Beam& beam, double t);
 /// r^2 / 4 along an axis, a box b^2 / 12. Millimetres on a receiver at this distance.
 double blur_width(const Layout& layout, double distance);
 
-/// Light of a facet in cells of a receiver. Cell (x0 + i, y0 + k) gets x[i] * y[k]; cells beside the receiver are left out.
-struct Footprint {
-  int x0 = 0, y0 = 0;
-  std::vector<double> x, y;
+/// Light of a facet on its way to a receiver, in cells: beams that are alike, each shifted from the middle, with equal parts of the light.
+/// A beam is a product: what lands in a cell is the part along x times the part along y.
+struct Beams {
+  static constexpr int most = 16;
+  Beam x, y;
+  int count = 1;
+  std::array<glm::dvec2, most> shifts{};
 };
 
-/// The beam of a facet with this slope. A facet of gradient g, whose light starts at z = g . p, hits a plane at (1 + slope g^T) p beside
+/// The beams of a facet with this slope. A facet of gradient g, whose light starts at z = g . p, hits a plane at (1 + slope g^T) p beside
 /// its middle: a parallelogram, smaller along the slope than the facet; a lamp's light has another slope at each p. Its shadow along x and
-/// along y is exact, but that the smears by the sun, roughness and dispersion are boxes of the right variance; that both hang together off
-/// the axes is not kept. height: z of the facet's middle, from where its light has further to go.
+/// along y is exact; that both hang together off the axes is not kept. A band of wavelengths is a line along the change of the slope with
+/// the index: as many beams as it takes for the rest of each to be short beside a cell. The sun's disc and roughness, where they are wide
+/// beside a cell, are 16 beams, 4 where the light has a band. What is left of a blur is a box along each axis with its variance. height:
+/// z of the facet's middle, from where its light has further to go.
+Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height = 0);
+
+/// Light of a facet in cells of a receiver: column x0 + i, row y0 + k get cells[k * columns + i]; those beside the receiver are left out.
+struct Footprint {
+  int x0 = 0, y0 = 0, columns = 0, rows = 0;
+  std::vector<double> cells;
+};
 Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height = 0);
 
 /// How much light a facet sends, over what the mean facet would send lying flat. Light that falls in with a slope t meets 1 + t . g of it
 /// on a facet of gradient g, whose edge towards the light is g / 2 below its middle, in parts of its width. A neighbour of gradient h ends
-/// h / 2 above its own, so that t (g + h) / 2 / (1 + t . g) of the facet lies in its shadow, along x and along y. In the same way a wall
-/// stops what leaves with a slope s within s (g + h) / 2 / (1 + s . g) of the other edge. The footprint is of what is left. Light straight
-/// on is taken to meet no neighbour, nor are facets of free heights, whose edges nearly meet.
+/// h / 2 above its own, so that t (g + h) / 2 / (1 + t . g) of the facet lies in its shadow, along x and along y; less or more towards the
+/// ends of the edge, as g and h differ along it. In the same way a wall stops what leaves with a slope s within
+/// s (g + h) / 2 / (1 + s . g) of the other edge. The footprint is of what is left. h is what the layout says of the neighbour
+/// (Incoming::around). Light straight on is taken to meet no neighbour, nor are facets of free heights, whose edges nearly meet.
 double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
 /// Calls f(cell, part of the facet's light) for every cell of the receiver that gets some.
 template <class F>
 void for_cells(const Layout& layout, const Footprint& print, const F& f)
 {
-  for (std::size_t k = 0; k < print.y.size(); ++k)
-    for (std::size_t i = 0; i < print.x.size(); ++i)
-      f((static_cast<std::size_t>(print.y0) + k) * static_cast<std::size_t>(layout.cells.x) + static_cast<std::size_t>(print.x0) + i,
-        print.x[i] * print.y[k]);
+  for (int k = 0; k < print.rows; ++k)
+    for (int i = 0; i < print.columns; ++i)
+      f(index_at(print.x0 + i, print.y0 + k, layout.cells.x), print.cells[index_at(i, k, print.columns)]);
 }
 
 /// Adds the facet's light, `sign` times, to every receiver's: [receiver][cell], in facets that send all of theirs.

@@ -191,11 +191,11 @@ double SlopeSearch::score(std::size_t facet, const glm::dvec2& slope, std::span<
   for (std::size_t j = 0; j < lacks.size(); ++j) {
     const Footprint print = footprint(layout_, facet, slope, j, heights_[facet]);
     const Lack& lack = lacks[j];
-    for (std::size_t k = 0; k < print.y.size(); ++k) {
-      const float* const row =
-          lack.values.data() + static_cast<std::ptrdiff_t>(print.y0 + static_cast<int>(k) + lack.rim) * lack.width + print.x0 + lack.rim;
-      for (std::size_t i = 0; i < print.x.size(); ++i) {
-        const double a = power * print.x[i] * print.y[k];
+    for (int k = 0; k < print.rows; ++k) {
+      const float* const row = lack.values.data() + index_at(print.x0 + lack.rim, print.y0 + k + lack.rim, lack.width);
+      const double* const parts = print.cells.data() + index_at(0, k, print.columns);
+      for (int i = 0; i < print.columns; ++i) {
+        const double a = power * parts[i];
         sum += a * (row[i] + weights_[j] * a);
       }
     }

@@ -34,6 +34,7 @@ struct Smear {
   std::vector<double> parts;
 };
 
+/// Along both axes; what it is off them is left out.
 struct Smears {
   Smear x, y;
 };
@@ -49,8 +50,16 @@ Smears smears_of(const Layout& layout, std::size_t receiver)
   const std::size_t facet =
       *std::min_element(facets.begin(), facets.end(), [&](std::size_t a, std::size_t b) { return turn(a) < turn(b); });
   const glm::dvec2 slope = nearest_reachable((to - layout.middle(facet)) / layout.distances[receiver], layout.n, layout.sines_on(facet));
-  Footprint print = footprint(layout, facet, slope, receiver);
-  return {{print.x0 - at.x, std::move(print.x)}, {print.y0 - at.y, std::move(print.y)}};
+  const Footprint print = footprint(layout, facet, slope, receiver);
+  Smears smears{{print.x0 - at.x, std::vector<double>(static_cast<std::size_t>(print.columns))},
+                {print.y0 - at.y, std::vector<double>(static_cast<std::size_t>(print.rows))}};
+  for (int k = 0; k < print.rows; ++k)
+    for (int i = 0; i < print.columns; ++i) {
+      const double part = print.cells[index_at(i, k, print.columns)];
+      smears.x.parts[static_cast<std::size_t>(i)] += part;
+      smears.y.parts[static_cast<std::size_t>(k)] += part;
+    }
+  return smears;
 }
 
 /// Along one axis; back: from where light falls to where it was aimed. Light beside the receiver is left out.

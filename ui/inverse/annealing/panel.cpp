@@ -214,7 +214,7 @@ void AnnealingPanel::draw_beam_row(const ImVec2& size)
     if (const job::Picture* picture = pictures_.find(name_of("receiver", j))) draw_beam_cells(beam_->prints[j], *picture, low, high);
     frame(low, high);
     tooltip(fmt::format("The facet's beam on receiver {}: {:.3g} % of it, in {} x {} cells", j + 1, 100 * part_on(beam_->prints[j]),
-                        beam_->prints[j].x.size(), beam_->prints[j].y.size()));
+                        beam_->prints[j].columns, beam_->prints[j].rows));
   }
 }
 

@@ -76,8 +76,8 @@ std::optional<FacetBeam> facet_beam(const job::Picture& slopes, const inverse::L
 
 std::optional<BeamBox> box_of(const inverse::Footprint& print)
 {
-  if (print.x.empty() || print.y.empty()) return std::nullopt;
-  return BeamBox{{print.x0, print.y0}, {print.x0 + static_cast<int>(print.x.size()), print.y0 + static_cast<int>(print.y.size())}};
+  if (print.cells.empty()) return std::nullopt;
+  return BeamBox{{print.x0, print.y0}, {print.x0 + print.columns, print.y0 + print.rows}};
 }
 
 std::vector<std::vector<preset::Vec3>> lines_of(const FacetBeam& beam, const inverse::Layout& layout)
@@ -100,10 +100,7 @@ std::vector<std::vector<preset::Vec3>> lines_of(const FacetBeam& beam, const inv
   return lines;
 }
 
-double part_on(const inverse::Footprint& print)
-{
-  return std::accumulate(print.x.begin(), print.x.end(), 0.0) * std::accumulate(print.y.begin(), print.y.end(), 0.0);
-}
+double part_on(const inverse::Footprint& print) { return std::accumulate(print.cells.begin(), print.cells.end(), 0.0); }
 
 void draw_beam_frame(const inverse::Footprint& print, const glm::ivec2& cells, const ImVec2& low, const ImVec2& high)
 {
@@ -131,7 +128,7 @@ void draw_beam_cells(const inverse::Footprint& print, const job::Picture& pictur
   const glm::dvec2 middle = (box->low + box->high) / 2.0, extent = box->high - box->low;
   const double across = std::max(cells_about_a_beam, std::max(extent.x, extent.y) + 4), size = (high.x - low.x) / across;
   const double left = middle.x - across / 2, top = middle.y - (high.y - low.y) / size / 2;
-  const double most = *std::max_element(print.x.begin(), print.x.end()) * *std::max_element(print.y.begin(), print.y.end());
+  const double most = *std::max_element(print.cells.begin(), print.cells.end());
   const auto corner = [&](int x, int y) {
     return ImVec2(low.x + static_cast<float>((x - left) * size), low.y + static_cast<float>((y - top) * size));
   };
@@ -142,8 +139,8 @@ void draw_beam_cells(const inverse::Footprint& print, const job::Picture& pictur
       const unsigned char grey = shown_byte(picture.rgb[3 * index]);
       list.AddRectFilled(corner(x, y), corner(x + 1, y + 1), IM_COL32(grey, grey, grey, 255));
       const int i = x - print.x0, k = y - print.y0;
-      if (i < 0 || k < 0 || i >= static_cast<int>(print.x.size()) || k >= static_cast<int>(print.y.size())) continue;
-      const double part = print.x[static_cast<std::size_t>(i)] * print.y[static_cast<std::size_t>(k)];
+      if (i < 0 || k < 0 || i >= print.columns || k >= print.rows) continue;
+      const double part = print.cells[inverse::index_at(i, k, print.columns)];
       list.AddRectFilled(corner(x, y), corner(x + 1, y + 1), beam_colour(0.85 * part / most));
     }
   list.PopClipRect();
