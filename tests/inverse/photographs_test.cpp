@@ -151,8 +151,8 @@ TEST(BestPossible, IsThePictureWhereFacetsAreSmall)
   EXPECT_EQ(best_possible(layout, target, 0), target);
 }
 
-// With a rough surface nothing is sharper than its blur; among all light that could be sent, what the search finds is no better by more
-// than a twentieth, which finer aims gain.
+// With a rough surface nothing is sharper than its blur. What the search finds is better by a tenth at most: it aims finer than at cells'
+// middles, and the smear is kept along the axes alone.
 TEST(BestPossible, IsAsSoftAsTheLightOfAFacet)
 {
   const Layout layout = layout_with(0.02); // 4 mm, cells are 3.1 mm
@@ -168,7 +168,7 @@ TEST(BestPossible, IsAsSoftAsTheLightOfAFacet)
   while (!job->finished()) job->step();
   const double found = job::scalar(job->snapshot(), "believed", "rel_l2"), possible = cost_of(target, best, 1).rel_l2;
   EXPECT_GT(possible, 0.1);
-  EXPECT_GT(found, 0.95 * possible);
+  EXPECT_GT(found, 0.9 * possible);
   EXPECT_LT(found, 1.3 * possible);
 }
 

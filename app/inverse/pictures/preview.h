@@ -9,10 +9,9 @@
 
 namespace nephroid::inverse {
 
-/// The closest to a target that so many facets could cast, were it their only picture: any light a cell that is not negative, each smeared
-/// by the footprint of a facet that hardly bends it. So the size of facets, the sun, roughness and dispersion are in it; that pictures
-/// fight is not. Least squares, by
-/// FISTA (Beck and Teboulle 2009). Sums to 1.
+/// The closest to a target that so many facets could cast, were it their only picture, to within a tenth: any light a cell that is not
+/// negative, each smeared by the footprint of a facet that hardly bends it. So the size of facets, the sun, roughness and dispersion are in
+/// it; that pictures fight is not. Least squares, by FISTA (Beck and Teboulle 2009). Sums to 1.
 Target best_possible(const Layout& layout, const Target& target, std::size_t receiver);
 std::vector<Target> best_possible(const Layout& layout, const std::vector<Target>& targets);
 
