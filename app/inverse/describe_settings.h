@@ -71,6 +71,12 @@ inline void describe(preset::Fields& v, Picture& p)
   if (p.type == Type::file)
     v.field("tone", "Exponent on the file's luminance, of which the brightest pixel has 1: more than 1 darkens its greys.", p.tone,
             {.bounds = preset::within(0.1, 10)});
+  if (p.type == Type::file) {
+    v.field("levels", "Contrast: brightness, after the tone, that becomes dark, and that which becomes the brightest.", p.levels,
+            {.unit = "parts of the file's brightest", .bounds = preset::within(0, 1)});
+    v.field("vignette", "Width of the edge over which the file fades to the background.", p.vignette,
+            {.unit = "parts of half the file's shorter side", .bounds = preset::within(0, 1)});
+  }
   if (words) v.field("text", "What it says.", p.text, {.required = true});
   if (round) part("radius", "The outer radius.", p.radius);
   if (p.type == Type::ring || p.type == Type::star) part("inner", "The inner radius.", p.inner);

@@ -5,6 +5,7 @@
 #include "inverse/bending.h"
 #include "inverse/describe_settings.h"
 #include "inverse/engine.h"
+#include "inverse/pictures/preview.h"
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/pipeline.h"
 
@@ -59,6 +60,7 @@ InversePlan make_plan(const preset::Preset& preset)
   InversePlan plan;
   plan.layout = make_layout(preset);
   plan.targets = make_targets(preset, plan.layout);
+  plan.best = best_possible(plan.layout, plan.targets);
   const Layout& l = plan.layout;
   plan.engine = "inverse";
   plan.layers = 1;
@@ -73,6 +75,7 @@ InversePlan make_plan(const preset::Preset& preset)
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
                                      "soft; choose more facets or fewer cells",
                                      l.facet().x, l.facet().y, l.cell().x, l.cell().y));
+  for (std::string& note : picture_notes(settings(preset), l, plan.targets, plan.best)) plan.notes.push_back(std::move(note));
   const std::int64_t trials = Pipeline::trials_of(settings(preset).thesis);
   if (settings(preset).method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
     plan.notes.push_back(fmt::format("the thesis' pipeline takes up to {} trials and stops after {}: a 'stop.passes' of {} lets it end",

@@ -31,6 +31,9 @@ void check_picture(const Picture& p, const std::string& pointer, const Where& wh
       if (c < ' ' || c > '~')
         throw bad_input(where(preset::child(pointer, "text")), fmt::format("is \"{}\", and only printable ASCII is drawn", p.text),
                         "expected letters without accents, digits and signs in one line", "draw other ones as a picture file");
+  if (p.levels[0] >= p.levels[1])
+    throw bad_input(where(preset::child(pointer, "levels")), fmt::format("is [{}, {}]", p.levels[0], p.levels[1]),
+                    "expected the darker one first");
   if (p.type == Picture::Type::star && p.count < 2)
     throw bad_input(where(preset::child(pointer, "count")), fmt::format("is {}", p.count), "expected a star of at least 2 points");
 }

@@ -38,16 +38,18 @@ struct Thesis {
 struct Picture {
   enum class Type { file, disc, ring, cross, bars, star, gradient, face, text, qr };
   Type type = Type::disc;
-  std::string file;      ///< file: its luminance, fitted into the receiver
-  double tone = 1;       ///< file: exponent on its luminance, whose maximum is 1
-  std::string text;      ///< text and qr
-  double radius = 0.3;   ///< disc and face; ring and star: the outer one
-  double inner = 0.15;   ///< ring and star: the inner radius
-  double length = 0.7;   ///< cross and bars; text: its width
-  double width = 0.15;   ///< cross and bars; bars are as far from each other as they are wide
-  int count = 3;         ///< bars; star: of its points
-  double turn_deg = 0;   ///< counterclockwise
-  double background = 0; ///< brightness where nothing is drawn; the drawing has 1
+  std::string file;                   ///< file: its luminance, fitted into the receiver
+  double tone = 1;                    ///< file: exponent on its luminance, whose maximum is 1
+  std::array<double, 2> levels{0, 1}; ///< file: what becomes 0 and what becomes 1, after the tone
+  double vignette = 0;                ///< file: width of its soft edge, in parts of half its shorter side
+  std::string text;                   ///< text and qr
+  double radius = 0.3;                ///< disc and face; ring and star: the outer one
+  double inner = 0.15;                ///< ring and star: the inner radius
+  double length = 0.7;                ///< cross and bars; text: its width
+  double width = 0.15;                ///< cross and bars; bars are as far from each other as they are wide
+  int count = 3;                      ///< bars; star: of its points
+  double turn_deg = 0;                ///< counterclockwise
+  double background = 0;              ///< brightness where nothing is drawn; the drawing has 1
   bool operator==(const Picture&) const = default;
 };
 
