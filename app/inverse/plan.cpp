@@ -16,6 +16,15 @@ namespace {
 /// Bytes a facet, measured: some 14 triangles with their vertices, their tree and the two files of them.
 constexpr std::uint64_t solid_bytes = 3000;
 
+/// Into how many parts a lens's facets are cut on the average, about: on a photograph they bend light, in the mean of square roots, as much
+/// as it takes to gather it in a point. See mesh_parts().
+std::uint64_t lens_parts(const Settings& s, const Layout& l)
+{
+  if (s.method != Settings::Method::lens) return 1;
+  const double miss = std::max(l.facet().x, l.facet().y) / std::min(l.cell().x, l.cell().y) / 2;
+  return static_cast<std::uint64_t>(std::ceil(miss * miss / (s.mesh_error * s.mesh_error))) * 4;
+}
+
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
 {
   const bool blurred = l.sun_radius > 0 || l.scatter > 0 || !l.indices.empty(), straight = l.incoming.empty();
@@ -69,7 +78,7 @@ InversePlan make_plan(const preset::Preset& preset)
                   {"what the pictures lack, for each of a batch (host)",
                    settings(preset).method == Settings::Method::assign ? (1 + Assignment::batch) * lack_bytes(l) : 0, true},
                   {"light on the frames (host)", 3 * sizeof(double) * l.cell_count() * l.frames.size(), true},
-                  {"the solid and its files (host)", solid_bytes * l.facet_count(), true}};
+                  {"the solid and its files (host)", solid_bytes * lens_parts(settings(preset), l) * l.facet_count(), true}};
   if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
                                      "soft; choose more facets or fewer cells",

@@ -83,7 +83,7 @@ protected:
   inverse::Layout layout{
       .size = {60, 40}, .thickness = 12, .facets = {120, 80}, .receiver = {60, 40}, .cells = {30, 20}, .distances = {150}};
   inverse::Target target = disc(layout);
-  inverse::Lens lens{layout, target, own};
+  inverse::Lens lens{layout, target, 0.3, own};
 };
 
 TEST_F(Lens, IsJudgedAsItBelievesAndHasNoWalls)
@@ -104,7 +104,7 @@ TEST_F(Lens, IsJudgedAsItBelievesAndHasNoWalls)
 
 TEST_F(Lens, GoesOnWithTheSameBits)
 {
-  inverse::Lens first(layout, target, own), second(layout, target, own);
+  inverse::Lens first(layout, target, 0.3, own), second(layout, target, 0.3, own);
   advance(lens, 6);
   advance(first, 3);
   ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
@@ -152,7 +152,7 @@ TEST_F(Lens, HasNarrowObjectsAndFinePictures)
   layout.cells = {1000, 2};
   target.assign(2000, 0);
   target[500] = 1;
-  inverse::Lens narrow(layout, target, own);
+  inverse::Lens narrow(layout, target, 0.3, own);
   advance(narrow, 3);
   EXPECT_TRUE(std::isfinite(narrow.costs().front().rel_l2));
 }
