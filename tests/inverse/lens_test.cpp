@@ -169,8 +169,8 @@ TEST_F(Lens, IsRefusedWhereItsMeshIsTooLarge)
   inverse::Lens fine(layout, target, 0.001, own);
   advance_to(fine, 1);
   const std::string said = refusal_of([&] { fine.solid(); });
-  EXPECT_THAT(said, StartsWith("p.json#/inverse/mesh_error: is 0.001, for which the lens takes "));
-  EXPECT_THAT(said, HasSubstr(" triangles, an STL of "));
+  EXPECT_THAT(said, StartsWith("p.json#/inverse/mesh_error: is 0.001, for which the lens takes some "));
+  EXPECT_THAT(said, HasSubstr(" million triangles, an STL of "));
 }
 
 TEST_F(Lens, KeepsAWorkshopsRelief)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/facets/smooth_solid.h"
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "inverse/bending.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
@@ -245,6 +247,15 @@ std::vector<int> mesh_parts(const Layout& layout, const Surface& surface, double
 std::uint64_t count_triangles(const Layout& layout, const std::vector<int>& parts)
 {
   return SmoothBuilder(layout, Surface(layout.size, Grid::Zero(2, 2)), parts).triangles();
+}
+
+void refuse_mesh(const Place& own, double mesh_error, std::uint64_t triangles)
+{
+  throw bad_input(own / "mesh_error",
+                  fmt::format("is {}, for which the lens takes some {} million triangles, an STL of {:.3g} GB", mesh_error,
+                              triangles / 1'000'000, static_cast<double>(stl_bytes(triangles)) / 1e9),
+                  fmt::format("expected one of at most {:.3g} GB", static_cast<double>(most_stl_bytes) / 1e9),
+                  "choose a larger mesh_error or fewer cells");
 }
 
 Solid make_smooth_solid(const Layout& layout, const Surface& surface, const std::vector<int>& parts)

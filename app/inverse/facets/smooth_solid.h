@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lens as one closed solid in millimetres: a smooth surface in triangles, flat sides, and the flat front at z = thickness.
 #pragma once
+#include "base/place.h"
 #include "inverse/facets/solid.h"
 #include "inverse/facets/surface.h"
 
@@ -19,6 +20,8 @@ std::uint64_t count_triangles(const Layout& layout, const std::vector<int>& part
 
 inline std::uint64_t stl_bytes(std::uint64_t triangles) { return 84 + 50 * triangles; }
 inline constexpr std::uint64_t most_stl_bytes = 4'000'000'000;
+/// Throws bad_input for so many triangles. own: where the settings stand.
+[[noreturn]] void refuse_mesh(const Place& own, double mesh_error, std::uint64_t triangles);
 
 /// Every part is triangles about its middle, with all corners of its neighbours on its sides. All vertices are on the surface.
 Solid make_smooth_solid(const Layout& layout, const Surface& surface, const std::vector<int>& parts);

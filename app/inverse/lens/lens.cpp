@@ -272,12 +272,8 @@ Solid Lens::solid() const
                     fmt::format("'max_relief_mm' and 'min_thickness_mm' leave {:.4g} mm", 2 * layout_.band),
                     "loosen them, choose a larger thickness_mm or a receiver further away");
   const std::vector<int> parts = mesh_parts(layout_, surface_, mesh_error_);
-  if (const std::uint64_t bytes = stl_bytes(count_triangles(layout_, parts)); bytes > most_stl_bytes)
-    throw bad_input(settings_ / "mesh_error",
-                    fmt::format("is {}, for which the lens takes {} triangles, an STL of {:.3g} GB", mesh_error_,
-                                count_triangles(layout_, parts), static_cast<double>(bytes) / 1e9),
-                    fmt::format("expected one of at most {:.3g} GB", static_cast<double>(most_stl_bytes) / 1e9),
-                    "choose a larger mesh_error or fewer cells");
+  if (const std::uint64_t triangles = count_triangles(layout_, parts); stl_bytes(triangles) > most_stl_bytes)
+    refuse_mesh(settings_, mesh_error_, triangles);
   Solid solid = make_smooth_solid(layout_, surface_, parts);
   if (const double most = glm::degrees(std::atan(layout_.steepest)); solid.steepest_deg > most)
     throw bad_input(settings_ / "max_slope_deg",
