@@ -25,7 +25,7 @@ constexpr int moves = 40;
 /// How often heights are made anew from where the transport sends the light: it starts from them.
 constexpr int rounds = 3;
 /// A correction that gains a smaller part of the error gains too little.
-constexpr double worth = 0.01;
+constexpr double worth = 0.02;
 
 glm::dvec2 domain_of(const Layout& layout) { return glm::max(layout.size, layout.receiver); }
 
