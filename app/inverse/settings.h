@@ -86,6 +86,7 @@ struct Settings {
   double smoothing_normals = 0;             ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
   double smoothing_pictures = 1;            ///< alpha_P: weight of the pictures' error
   std::array<int, 2> facets{128, 128};      ///< across and down
+  double mesh_error = 0.3;                  ///< of a lens: how far triangles send light from where its surface does, in cells
   preset::Dispersion index{};               ///< of the object, in air
   double wavelength_nm = 550;               ///< at which the index is taken
   double band_nm = 0;                       ///< width of the light's band about it

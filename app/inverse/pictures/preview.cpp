@@ -167,7 +167,7 @@ std::vector<Target> best_possible(const Layout& layout, const std::vector<Target
 
 double estimated_relief(const Layout& layout, const Target& target)
 {
-  constexpr int most = 32, steps = 20;
+  constexpr int most = 32;
   Layout coarse = layout;
   const auto reduced = [](const glm::ivec2& from) { return glm::max(from * most / std::max({from.x, from.y, most}), 2); };
   coarse.facets = reduced(layout.facets);
@@ -176,8 +176,8 @@ double estimated_relief(const Layout& layout, const Target& target)
   coarse.lamp.reset();
   Target wanted(coarse.cell_count());
   for (std::size_t c = 0; c < target.size(); ++c) wanted[*coarse.cell_at(layout.middle_of_cell(c))] += target[c];
-  Lens lens(coarse, wanted, {});
-  for (int i = 0; i < steps && !lens.finished(); ++i) lens.advance();
+  Lens lens(coarse, wanted, 1, {}); // the mesh is not made
+  while (lens.steps() == 0) lens.advance();
   const std::vector<double> heights = lens.heights();
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
   return *high - *low;
