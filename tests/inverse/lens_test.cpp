@@ -155,7 +155,7 @@ TEST_F(Lens, IsLitFromTheSideAndByALamp)
     inverse::Lens method(lit, target, 0.3, own);
     while (!method.finished() && method.steps() < method.most()) method.advance();
     const inverse::Solid solid = method.solid();
-    inverse::Judge judge(lit, solid, 1);
+    inverse::Judge judge(test::shared_context(), lit, solid, 1);
     while (!judge.finished()) judge.advance();
     const inverse::Cost judged = judge.costs({target}).front();
     EXPECT_LT(judged.rel_l2, 0.07) << light.tilt_deg << " " << light.distance_mm;

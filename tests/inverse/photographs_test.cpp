@@ -165,7 +165,7 @@ TEST(BestPossible, IsAsSoftAsTheLightOfAFacet)
     "cells": [32, 32], "index": 1.5, "receivers": [{"distance_mm": 200, "picture": {"type": "ring"}}]}})",
                                           "p.json");
   settings(p).scatter_deg = glm::degrees(std::atan(0.02));
-  const auto job = make_job(p, make_plan(p));
+  const auto job = make_job(p, make_plan(p), test::shared_context());
   while (!job->finished()) job->step();
   const double found = job::scalar(job->snapshot(), "believed", "rel_l2"), possible = cost_of(target, best, 1).rel_l2;
   EXPECT_GT(possible, 0.1);
@@ -179,7 +179,7 @@ TEST_F(Photographs, ArePreviewedAtOnce)
   preset::Preset p = preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"facets": [32, 32],
     "cells": [8, 8], "index": 1.5, "receivers": [{"distance_mm": 200, "picture": {"type": "ring"}}]}})",
                                           "p.json");
-  const auto job = make_job(p, make_plan(p));
+  const auto job = make_job(p, make_plan(p), test::shared_context());
   std::vector<float> greys(64);
   for (std::size_t i = 0; i < 64; ++i) greys[i] = static_cast<float>(i) / 63;
   engine::engine_of(p).take_picture(p, write(8, 8, greys));

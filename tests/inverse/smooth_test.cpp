@@ -5,6 +5,7 @@
 #include "inverse/facets/smooth_solid.h"
 #include "inverse/judge.h"
 #include "tests/inverse/sound.h"
+#include "tests/support/render.h"
 
 namespace nephroid::smooth_test {
 
@@ -107,7 +108,7 @@ TEST(SmoothSolid, ShowsNoRingsInEvenGrey)
     heights.push_back(surface.at(layout.middle(i)).z);
   }
   const auto unevenness = [&](const Solid& solid) {
-    Judge judge(layout, solid, 1);
+    Judge judge(test::shared_context(), layout, solid, 1);
     while (!judge.finished()) judge.advance();
     double sum = 0, squares = 0; // of cells against their neighbours: the light falls a little towards the rim
     for (int y = 1; y + 1 < layout.cells.y; ++y)
