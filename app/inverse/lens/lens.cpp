@@ -294,6 +294,9 @@ void Lens::state(State& state)
   state.value(best_);
   for (Grid* const grid : {&heights_, &best_heights_}) state.items(std::span(grid->data(), static_cast<std::size_t>(grid->size())));
   if (!state.is_read()) return;
+  constexpr double farthest = 1e7; // mm
+  if (!(heights_.array().abs() < farthest).all() || !(best_heights_.array().abs() < farthest).all())
+    throw bad_input("checkpoint.bin", "is of another run");
   set_heights(heights_);
   see();
 }

@@ -69,7 +69,7 @@ void deposit(Grid& into, const glm::dvec2& p, double light)
 std::span<double> values(Grid& grid) { return {grid.data(), static_cast<std::size_t>(grid.size())}; }
 
 /// Samples along a side: two for each cell that it is stretched over.
-constexpr int most_samples = 32;
+constexpr double most_samples = 32;
 
 } // namespace
 
@@ -106,7 +106,7 @@ Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::In
         const glm::dvec2* const lower = upper + across;
         const glm::dvec2 wide = glm::max(glm::abs(upper[1] - upper[0]) + glm::abs(lower[0] - upper[0]),
                                          glm::abs(lower[1] - lower[0]) + glm::abs(lower[1] - upper[1]));
-        const int samples = std::clamp(static_cast<int>(std::ceil(2 * std::max(wide.x, wide.y))), 1, most_samples);
+        const int samples = static_cast<int>(std::clamp(std::ceil(2 * std::max(wide.x, wide.y)), 1.0, most_samples));
         const double part = light(y, x) / (samples * samples);
         for (int k = 0; k < samples * samples; ++k) {
           const double u = (k % samples + 0.5) / samples, v = (k / samples + 0.5) / samples; // NOLINT(bugprone-integer-division)
