@@ -4,6 +4,7 @@
 #pragma once
 #include "fake_job.h"
 #include "inverse/engine.h"
+#include "tests/support/render.h"
 #include "ui/shell/panels.h"
 #include "ui/view/sight.h"
 
