@@ -25,6 +25,12 @@ const Engine& engine_of(const preset::Preset& preset)
   throw std::logic_error("settings of an engine that is not in app/engines.cpp");
 }
 
+preset::Camera camera_of(const preset::Preset& preset)
+{
+  const auto camera = engine_of(preset).camera;
+  return camera ? camera(preset) : preset.scene.camera;
+}
+
 std::string_view name_of(const Engine& engine) { return engine.settings().name; }
 
 bool adoptable(const preset::Preset& before, const preset::Preset& now)

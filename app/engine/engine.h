@@ -77,6 +77,10 @@ struct Engine {
   /// Whether the scene of its presets has things to select and to move; false: a camera alone.
   bool has_scene = true;
 
+  /// The camera that the window's picture is seen by, where that may be another than the preset's: where that says nothing. Null: the
+  /// preset's.
+  preset::Camera (*camera)(const preset::Preset& preset) = nullptr;
+
   /// Puts a picture's file, which is there and was dropped on the window, into the preset. Throws bad_input where that has no place for it.
   /// Null: its presets take no picture.
   Taken (*take_picture)(preset::Preset& preset, const std::filesystem::path& file) = nullptr;
@@ -92,6 +96,9 @@ const std::vector<check::Check>& checks();
 
 /// Of a preset.
 const Engine& engine_of(const preset::Preset& preset);
+
+/// The camera that a preset's picture in the window is seen by.
+preset::Camera camera_of(const preset::Preset& preset);
 
 /// The word in a preset's "engine".
 std::string_view name_of(const Engine& engine);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/image.h"
 
+#include "base/bytes.h"
 #include "base/files.h"
 #include "image/seam.h"
 
@@ -22,6 +23,7 @@ namespace {
 
 struct Module {
   NephroidRead read = nullptr;
+  NephroidReadBands read_bands = nullptr;
   NephroidEncode encode = nullptr;
   NephroidText text = nullptr;
 };
@@ -31,8 +33,9 @@ Module load_module()
   const fs::path file = library_file(module_name);
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install OpenImageIO");
-  return {reinterpret_cast<NephroidRead>(::dlsym(library, read_symbol)), reinterpret_cast<NephroidEncode>(::dlsym(library, encode_symbol)),
-          reinterpret_cast<NephroidText>(::dlsym(library, text_symbol))};
+  return {reinterpret_cast<NephroidRead>(::dlsym(library, read_symbol)),
+          reinterpret_cast<NephroidReadBands>(::dlsym(library, read_bands_symbol)),
+          reinterpret_cast<NephroidEncode>(::dlsym(library, encode_symbol)), reinterpret_cast<NephroidText>(::dlsym(library, text_symbol))};
 }
 
 /// Loaded at the first call, from whatever thread, and kept.
@@ -99,7 +102,21 @@ std::array<float, 255> code_thresholds()
 }
 
 /// A PNG without its last chunk. libpng prints a line of its own about that, so it is not asked.
-bool is_cut_png(const std::string& bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n") && bytes.find("IEND") == std::string::npos; }
+bool is_cut_png(const fs::path& file)
+{
+  constexpr std::uint64_t piece = 1 << 20;
+  const std::unique_ptr<ByteSource> source = open_file(file);
+  std::string bytes;
+  for (bool first = true; source->left() > 0; first = false) {
+    bytes.erase(0, bytes.size() - std::min<std::size_t>(bytes.size(), 3)); // a name may be cut in two
+    const std::size_t kept = bytes.size();
+    bytes.resize(kept + std::min(source->left(), piece));
+    source->read(std::as_writable_bytes(std::span(bytes).subspan(kept)));
+    if (first && !bytes.starts_with("\x89PNG\r\n\x1a\n")) return false;
+    if (bytes.find("IEND") != std::string::npos) return false;
+  }
+  return !bytes.empty();
+}
 
 std::string png_picture(const std::string& name, int width, int height, int channels, const std::vector<unsigned char>& bytes)
 {
@@ -136,10 +153,9 @@ Layout layout_of(const Image& picture, const std::string& name)
   throw bad_input(name, fmt::format("has the channels {}", fmt::join(channels, ", ")), "expected R, G, B or Y alone");
 }
 
-/// What the module hands over, as a copy of our own; to: an Image.
-void take_picture(void* to, const NephroidPicture* picture)
+/// What the module hands over, as a copy of our own.
+void copy_picture(const NephroidPicture* picture, Image& result)
 {
-  Image& result = *static_cast<Image*>(to);
   result.width = picture->width;
   result.height = picture->height;
   result.channels.assign(picture->channels, picture->channels + picture->channel_count);
@@ -149,19 +165,50 @@ void take_picture(void* to, const NephroidPicture* picture)
   for (std::size_t i = 0; i < picture->attribute_count; ++i) result.attributes[picture->attributes[i].name] = picture->attributes[i].value;
 }
 
+/// to: an Image.
+void take_picture(void* to, const NephroidPicture* picture) { copy_picture(picture, *static_cast<Image*>(to)); }
+
+/// read(): null or OpenImageIO's reason. Reading the file says what is wrong with itself, OpenImageIO what is wrong with the picture.
+template <class Read>
+void read_or_refuse(const fs::path& file, const Read& read)
+{
+  const char* const reason = is_cut_png(file) ? "its end is missing" : read();
+  if (reason)
+    throw bad_input(file.string(), fmt::format("is no picture that can be read: {}", reason),
+                    "expected a whole EXR, HDR, PNG, JPEG or another picture that OpenImageIO reads", "save it anew, or name another file");
+}
+
 } // namespace
 
 Image read_image(const fs::path& file)
 {
-  // Reading it says what is wrong with the file itself, OpenImageIO what is wrong with the picture.
-  const auto refuse = [&file](const char* reason) {
-    throw bad_input(file.string(), fmt::format("is no picture that can be read: {}", reason),
-                    "expected a whole EXR, HDR, PNG, JPEG or another picture that OpenImageIO reads", "save it anew, or name another file");
-  };
-  if (is_cut_png(read_file(file))) refuse("its end is missing");
   Image image;
-  if (const char* reason = module().read(file.c_str(), take_picture, &image)) refuse(reason);
+  read_or_refuse(file, [&] { return module().read(file.c_str(), take_picture, &image); });
   return image;
+}
+
+void read_bands(const fs::path& file, const std::function<void(const Band&)>& use)
+{
+  struct Call {
+    const std::function<void(const Band&)>& use;
+    Band band;
+    std::exception_ptr thrown; ///< must not cross the seam
+  } call{use, {}, nullptr};
+  const auto take = [](void* to, const NephroidBand* lent) {
+    Call& taking = *static_cast<Call*>(to);
+    try {
+      copy_picture(&lent->picture, taking.band.rows);
+      taking.band.first = lent->first;
+      taking.band.height = lent->height;
+      taking.band.orientation = lent->orientation;
+      taking.use(taking.band);
+    } catch (...) {
+      taking.thrown = std::current_exception();
+    }
+    return !taking.thrown;
+  };
+  read_or_refuse(file, [&] { return module().read_bands(file.c_str(), take, &call); });
+  if (call.thrown) std::rethrow_exception(call.thrown);
 }
 
 Image text_picture(const std::string& text, int height, const Place& where)

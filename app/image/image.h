@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,6 +25,18 @@ struct Image {
 
 /// Colours are as the file has them, not multiplied by its alpha. Throws bad_input naming the file and OpenImageIO's reason.
 Image read_image(const std::filesystem::path& file);
+
+/// Some rows of a picture, as the file has them.
+struct Band {
+  Image rows;          ///< without attributes
+  int first = 0;       ///< of the rows, from the file's top
+  int height = 0;      ///< of the whole picture
+  int orientation = 1; ///< as a camera was held (Exif, 1..8): the rows are not turned
+};
+
+/// The same piece by piece from the top, 16 MiB at a time: a large picture takes little memory. Throws as read_image, and what `use`
+/// throws.
+void read_bands(const std::filesystem::path& file, const std::function<void(const Band&)>& use);
 
 /// The words in a bold font, white on black: one channel, 0..1, cut to the words; height: of a letter, about, in pixels. Throws
 /// bad_input at `where` if the font is missing or there is nothing to draw.

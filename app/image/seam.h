@@ -23,6 +23,15 @@ struct NephroidPicture {
   const unsigned short* words = nullptr;
 };
 
+/// Rows of a picture that is read piece by piece; `picture` has their height.
+struct NephroidBand {
+  NephroidPicture picture;
+  int first, height; ///< the first of them, and how many the whole has
+  int orientation;   ///< as Exif counts them, 1..8
+};
+
+/// Calls take(context, band) for one band after the other from the top, as long as it returns true. Null or the reason, as below.
+using NephroidReadBands = const char* (*)(const char* file, bool (*take)(void* context, const NephroidBand* band), void* context);
 /// Calls take(context, picture) once and returns null, or returns the reason in words (valid until the thread's next call).
 using NephroidRead = const char* (*)(const char* file, void (*take)(void* context, const NephroidPicture* picture), void* context);
 /// Encodes floats as 32-bit EXR (zip), bytes and words as PNG, and calls take(context, data, size) once. Null or the reason, as above.
@@ -36,6 +45,7 @@ using NephroidText = const char* (*)(const char* text, int height, const char* f
 namespace nephroid::image {
 inline constexpr const char* module_name = "libnephroid_image_io.so";
 inline constexpr const char* read_symbol = "nephroid_image_read";
+inline constexpr const char* read_bands_symbol = "nephroid_image_read_bands";
 inline constexpr const char* encode_symbol = "nephroid_image_encode";
 inline constexpr const char* text_symbol = "nephroid_image_text";
 } // namespace nephroid::image

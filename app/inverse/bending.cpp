@@ -35,12 +35,12 @@ glm::dvec3 light_inside(const glm::dvec2& sines, double n) { return {sines, -std
 
 glm::dvec2 slope_inside(const glm::dvec2& sines, double n) { return sines / -light_inside(sines, n).z; }
 
-glm::dvec2 facet_slope(const glm::dvec2& gradient, double n)
+glm::dvec2 facet_slope(const glm::dvec2& gradient, double n, const glm::dvec2& sines)
 {
-  const double steepness = glm::length(gradient);
-  if (steepness == 0) return {0, 0};
-  const double slope = std::min(slope_behind(std::atan(steepness), n), slope_limit(n));
-  return gradient / steepness * (n > 1 ? -slope : slope);
+  const glm::dvec3 in = light_inside(sines, n), normal = glm::normalize(glm::dvec3(gradient, -1));
+  const double along = glm::dot(in, normal);
+  const glm::dvec3 out = in - (along - std::sqrt(std::max(0.0, 1 - n * n + along * along))) * normal;
+  return glm::dvec2(out) / std::max(-out.z, 1e-3);
 }
 
 glm::dvec2 flat_slope(const glm::dvec2& sines) { return sines / std::sqrt(1 - glm::dot(sines, sines)); }

@@ -60,8 +60,8 @@ glm::dvec2 nearest_reachable(const glm::dvec2& slope, double n, const glm::dvec2
 /// being light_inside; for light straight on the gradient is -slope / (n sqrt(1 + slope^2) - 1).
 glm::dvec2 facet_gradient(const glm::dvec2& slope, double n, const glm::dvec2& sines = {});
 
-/// The other way round: the slope that light along -z gets behind such a facet; the limit where it is totally reflected.
-glm::dvec2 facet_slope(const glm::dvec2& gradient, double n);
+/// The other way round: the slope that light gets behind such a facet; where it is totally reflected, that of light along the facet.
+glm::dvec2 facet_slope(const glm::dvec2& gradient, double n, const glm::dvec2& sines = {});
 
 /// How much of the light inside leaves through such a facet: 1 minus Fresnel's reflectance.
 double transmitted(const glm::dvec2& slope, double n, const glm::dvec2& sines = {});

@@ -71,6 +71,12 @@ inline void describe(preset::Fields& v, Picture& p)
   if (p.type == Type::file)
     v.field("tone", "Exponent on the file's luminance, of which the brightest pixel has 1: more than 1 darkens its greys.", p.tone,
             {.bounds = preset::within(0.1, 10)});
+  if (p.type == Type::file) {
+    v.field("levels", "Contrast: brightness, after the tone, that becomes dark, and that which becomes the brightest.", p.levels,
+            {.unit = "parts of the file's brightest", .bounds = preset::within(0, 1)});
+    v.field("vignette", "Width of the edge over which the file fades to the background.", p.vignette,
+            {.unit = "parts of half the file's shorter side", .bounds = preset::within(0, 1)});
+  }
   if (words) v.field("text", "What it says.", p.text, {.required = true});
   if (round) part("radius", "The outer radius.", p.radius);
   if (p.type == Type::ring || p.type == Type::star) part("inner", "The inner radius.", p.inner);
@@ -166,6 +172,10 @@ inline void describe(preset::Fields& v, Settings& s)
   v.field("smoothing_pictures", "Weight of the pictures' error, where 'smoothing_normals' is above 0: alpha_P of (6.1).",
           s.smoothing_pictures, {.bounds = within(0.001, 1000)});
   v.field("facets", "Facets across and down.", s.facets, {.bounds = within(1, 1024)});
+  v.field("mesh_error",
+          "Of the method \"lens\": how far the mesh's flat triangles may send light from where the smooth surface sends it, in the mean of "
+          "squares. Half of it takes up to four times as many triangles.",
+          s.mesh_error, {.unit = "cells", .bounds = within(0.001, 10)});
   v.field("index", "Index of refraction: a number, a file or an object.", s.index);
   v.field("wavelength_nm", "The wavelength that the index is taken at.", s.wavelength_nm, {.unit = "nm", .bounds = within(380, 780)});
   v.field("band_nm", "Width of the light's band about wavelength_nm: its colours leave the object apart, which blurs the pictures.",

@@ -2,6 +2,7 @@
 #include "inverse/engine.h"
 
 #include "base/error.h"
+#include "inverse/object_view.h"
 
 #include <fmt/format.h>
 
@@ -55,6 +56,7 @@ constinit const engine::Engine engine{
     .checks = closed_forms,
     .adoptable = adoptable,
     .has_scene = false,
+    .camera = view_camera,
     .take_picture = take_picture,
     .introduction =
         {.example = {.preset = "inverse/shapes",

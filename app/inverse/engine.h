@@ -17,6 +17,7 @@ extern const engine::Engine engine;
 struct InversePlan : plan::Plan {
   Layout layout;
   std::vector<Target> targets; ///< of each receiver
+  std::vector<Target> best;    ///< how close to each an object comes at best: pictures/preview.h
 };
 
 /// Reads the index and the pictures. Throws bad_input as make_layout and make_targets do.

@@ -7,6 +7,7 @@
 #include "inverse/facets/files.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
+#include "inverse/object_view.h"
 #include "inverse/print_page.h"
 #include "inverse/sheet.h"
 #include "inverse/thesis/pipeline.h"
@@ -42,7 +43,8 @@ std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& 
 {
   const Settings& s = settings(preset);
   if (s.method == Settings::Method::thesis) return std::make_unique<Pipeline>(layout, targets, s.thesis, preset.seed);
-  if (s.method == Settings::Method::lens) return std::make_unique<Lens>(layout, targets.front(), Place(preset.source) / "inverse");
+  if (s.method == Settings::Method::lens)
+    return std::make_unique<Lens>(layout, targets.front(), s.mesh_error, Place(preset.source) / "inverse");
   return std::make_unique<Assignment>(context, layout, targets, preset.seed);
 }
 
@@ -54,7 +56,7 @@ struct CostRow {
 class InverseJob final : public job::Job {
 public:
   InverseJob(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context)
-      : context_(context), preset_(preset), layout_(plan.layout), targets_(plan.targets),
+      : context_(context), preset_(preset), layout_(plan.layout), targets_(plan.targets), best_(plan.best),
         method_(make_method(preset, layout_, targets_, context))
   {
     note_step();
@@ -111,8 +113,10 @@ public:
       InversePlan plan = make_plan(preset);
       layout_ = std::move(plan.layout);
       targets_ = std::move(plan.targets);
+      best_ = std::move(plan.best);
       method_->relight();
       stop_judging();
+      in_view_.reset();
       began_ = {method_->steps(), method_seconds_};
       note_step();
     }
@@ -224,11 +228,27 @@ private:
                          {difference_picture(*wanted, *received), "red: too much, blue: too little"}});
       const char* const names[] = {"target", "receiver", "difference"};
       for (std::size_t i = 0; i < 3; ++i) snapshot.pictures.push_back({fmt::format("{}_{}", names[i], j + 1), columns.back()[i].picture});
+      snapshot.pictures.push_back({fmt::format("best_{}", j + 1), grey_picture(best_[j], 1 / brightest(j), layout_.cells)});
     }
     snapshot.pictures.push_back({"slopes", slopes_picture(method_->slopes(), method_->heights(), layout_)});
     snapshot.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
     if (!std::exchange(conflict_known_, true)) find_conflicts();
     snapshot.pictures.push_back({"conflict", conflict_});
+    snapshot.in_view = object_picture(columns);
+  }
+
+  /// The same picture until a quarter of a step, the judge or the camera changes it.
+  std::shared_ptr<const job::Picture> object_picture(const std::vector<std::vector<Captioned>>& columns)
+  {
+    const preset::Camera camera = view_camera(preset_);
+    const Viewed now{method_->steps(), static_cast<int>(4 * method_->part()), finished(), camera};
+    if (in_view_ && now == viewed_) return in_view_;
+    viewed_ = now;
+    const std::vector<double> heights = method_->heights();
+    ObjectView view{layout_, method_->slopes(), heights, settings(preset_).method == Settings::Method::lens, {}};
+    for (const std::vector<Captioned>& column : columns) view.receivers.push_back(column[1].picture);
+    in_view_ = view_of(view, camera);
+    return in_view_;
   }
 
   /// Once for every step, where somebody looks; which pictures fight once the slopes are found.
@@ -356,9 +376,18 @@ private:
   };
 
   compute::Context context_;
+  /// What the picture of the object is of.
+  struct Viewed {
+    std::int64_t steps = 0;
+    int quarter = 0; ///< of the step in hand
+    bool judged = false;
+    preset::Camera camera;
+    bool operator==(const Viewed&) const = default;
+  };
+
   preset::Preset preset_;
   Layout layout_;
-  std::vector<Target> targets_;
+  std::vector<Target> targets_, best_;
   std::unique_ptr<Method> method_;
   Began began_;
   std::vector<CostRow> history_;
@@ -366,6 +395,8 @@ private:
   std::shared_ptr<const Solid> solid_; ///< from when the slopes are found
   std::optional<Judge> judge_;
   std::optional<Tolerances> tolerances_; ///< where they are wanted, from when the judge begins
+  Viewed viewed_;
+  std::shared_ptr<const job::Picture> in_view_; ///< of what viewed_ says
   bool conflict_known_ = false;
   std::shared_ptr<const job::Picture> conflict_; ///< where known
   std::optional<Conflicts> conflicts_;           ///< the same, once the slopes are found

@@ -5,16 +5,30 @@
 #include "inverse/bending.h"
 #include "inverse/describe_settings.h"
 #include "inverse/engine.h"
+#include "inverse/facets/smooth_solid.h"
+#include "inverse/pictures/preview.h"
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/pipeline.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace nephroid::inverse {
 namespace {
 
-/// Bytes a facet, measured: some 14 triangles with their vertices, their tree and the two files of them.
-constexpr std::uint64_t solid_bytes = 3000;
+/// Bytes a triangle, measured: with its vertices, its tree and the two files of it.
+constexpr std::uint64_t triangle_bytes = 215;
+
+/// Of the solid, about: some 14 a facet with its walls. Of a lens, whose surface is not known yet, as many as photographs took:
+/// mesh_parts() cuts facets into the more parts the more they bend light.
+std::uint64_t triangles_of(const Settings& s, const Layout& l)
+{
+  if (s.method != Settings::Method::lens) return 14 * l.facet_count();
+  const double miss = std::max(l.facet().x, l.facet().y) / std::min(l.cell().x, l.cell().y) / 2; // of light that is gathered in a point
+  return static_cast<std::uint64_t>((4 + 24 * std::pow(miss / s.mesh_error, 2)) * static_cast<double>(l.facet_count()));
+}
 
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
 {
@@ -59,7 +73,10 @@ InversePlan make_plan(const preset::Preset& preset)
   InversePlan plan;
   plan.layout = make_layout(preset);
   plan.targets = make_targets(preset, plan.layout);
+  plan.best = best_possible(plan.layout, plan.targets);
   const Layout& l = plan.layout;
+  const std::uint64_t triangles = triangles_of(settings(preset), l);
+  if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Place(preset.source) / "inverse", settings(preset).mesh_error, triangles);
   plan.engine = "inverse";
   plan.layers = 1;
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
@@ -68,11 +85,12 @@ InversePlan make_plan(const preset::Preset& preset)
                   {"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
                   {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
                   {"light on the frames (host)", 3 * sizeof(double) * l.cell_count() * l.frames.size(), true},
-                  {"the solid and its files (host)", solid_bytes * l.facet_count(), true}};
+                  {"the solid and its files (host)", triangle_bytes * triangles, true}};
   if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
                                      "soft; choose more facets or fewer cells",
                                      l.facet().x, l.facet().y, l.cell().x, l.cell().y));
+  for (std::string& note : picture_notes(settings(preset), l, plan.targets, plan.best)) plan.notes.push_back(std::move(note));
   const std::int64_t trials = Pipeline::trials_of(settings(preset).thesis);
   if (settings(preset).method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
     plan.notes.push_back(fmt::format("the thesis' pipeline takes up to {} trials and stops after {}: a 'stop.passes' of {} lets it end",

@@ -10,7 +10,7 @@ namespace nephroid::inverse {
 using Grid = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Minus the Laplacian is sum over neighbours of (u - u_neighbour) / spacing^2. Cosines are its eigenvectors (Strang 1999, "The Discrete
-/// Cosine Transform", DCT-2), so that solving is four products of matrices.
+/// Cosine Transform", DCT-2), so that solving is a transform there and back along either axis.
 class Poisson {
 public:
   Poisson(int columns, int rows, const glm::dvec2& spacing);
@@ -18,8 +18,7 @@ public:
   Grid solve(const Grid& f) const;
 
 private:
-  Grid across_, down_;  ///< [frequency][node]
-  Grid one_over_value_; ///< [down][across]; 0 for the constant
+  Grid one_over_value_; ///< [across][down]; 0 for the constant
 };
 
 } // namespace nephroid::inverse

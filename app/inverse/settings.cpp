@@ -31,6 +31,9 @@ void check_picture(const Picture& p, const std::string& pointer, const Where& wh
       if (c < ' ' || c > '~')
         throw bad_input(where(preset::child(pointer, "text")), fmt::format("is \"{}\", and only printable ASCII is drawn", p.text),
                         "expected letters without accents, digits and signs in one line", "draw other ones as a picture file");
+  if (p.levels[0] >= p.levels[1])
+    throw bad_input(where(preset::child(pointer, "levels")), fmt::format("is [{}, {}]", p.levels[0], p.levels[1]),
+                    "expected the darker one first");
   if (p.type == Picture::Type::star && p.count < 2)
     throw bad_input(where(preset::child(pointer, "count")), fmt::format("is {}", p.count), "expected a star of at least 2 points");
 }
@@ -93,9 +96,6 @@ void check(const preset::Preset& preset, const Where& where)
   if (s.smoothing_normals > 0 && s.method != Method::assign)
     refuse("smoothing_normals", fmt::format("is {}, and only the method 'assign' has such a term", s.smoothing_normals), "expected 0",
            "or choose the method 'assign'");
-  if (lens && (s.light.type == Light::Type::point || s.light.tilt_deg != 0))
-    refuse("light", "is a lamp or tilted, and the method \"lens\" takes light straight on", "expected parallel light with a tilt_deg of 0",
-           "choose \"assign\"");
   const double first_nm = s.wavelength_nm - s.band_nm / 2, last_nm = s.wavelength_nm + s.band_nm / 2;
   if (first_nm < 380 || last_nm > 780)
     refuse("band_nm", fmt::format("is {} nm, and the light would have {} to {} nm", s.band_nm, first_nm, last_nm),

@@ -38,16 +38,18 @@ struct Thesis {
 struct Picture {
   enum class Type { file, disc, ring, cross, bars, star, gradient, face, text, qr };
   Type type = Type::disc;
-  std::string file;      ///< file: its luminance, fitted into the receiver
-  double tone = 1;       ///< file: exponent on its luminance, whose maximum is 1
-  std::string text;      ///< text and qr
-  double radius = 0.3;   ///< disc and face; ring and star: the outer one
-  double inner = 0.15;   ///< ring and star: the inner radius
-  double length = 0.7;   ///< cross and bars; text: its width
-  double width = 0.15;   ///< cross and bars; bars are as far from each other as they are wide
-  int count = 3;         ///< bars; star: of its points
-  double turn_deg = 0;   ///< counterclockwise
-  double background = 0; ///< brightness where nothing is drawn; the drawing has 1
+  std::string file;                   ///< file: its luminance, fitted into the receiver
+  double tone = 1;                    ///< file: exponent on its luminance, whose maximum is 1
+  std::array<double, 2> levels{0, 1}; ///< file: what becomes 0 and what becomes 1, after the tone
+  double vignette = 0;                ///< file: width of its soft edge, in parts of half its shorter side
+  std::string text;                   ///< text and qr
+  double radius = 0.3;                ///< disc and face; ring and star: the outer one
+  double inner = 0.15;                ///< ring and star: the inner radius
+  double length = 0.7;                ///< cross and bars; text: its width
+  double width = 0.15;                ///< cross and bars; bars are as far from each other as they are wide
+  int count = 3;                      ///< bars; star: of its points
+  double turn_deg = 0;                ///< counterclockwise
+  double background = 0;              ///< brightness where nothing is drawn; the drawing has 1
   bool operator==(const Picture&) const = default;
 };
 
@@ -84,6 +86,7 @@ struct Settings {
   double smoothing_normals = 0;             ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
   double smoothing_pictures = 1;            ///< alpha_P: weight of the pictures' error
   std::array<int, 2> facets{128, 128};      ///< across and down
+  double mesh_error = 0.3;                  ///< of a lens: how far triangles send light from where its surface does, in cells
   preset::Dispersion index{};               ///< of the object, in air
   double wavelength_nm = 550;               ///< at which the index is taken
   double band_nm = 0;                       ///< width of the light's band about it

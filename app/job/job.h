@@ -68,6 +68,7 @@ struct ExtraFile {
 
 struct Snapshot {
   std::shared_ptr<const Picture> picture; ///< the one that the window shows first and that is measured
+  std::shared_ptr<const Picture> in_view; ///< what the window shows alone, in the place of `picture`; null: that itself
   std::string caption;                    ///< a sentence on what it shows, where that is not what the preset asks for; else empty
   bool stands_in = false;                 ///< true: the picture shows the work before the first one of what was asked for, and is no result
   std::vector<NamedPicture> pictures;     ///< the others

@@ -14,8 +14,9 @@ namespace nephroid::shared {
 
 // A footprint is so many beams at most: 2^4.
 #define BEAMS 16
-#define DISC_POINTS 8
 #define INDEX_LEVELS 5
+// Of light of one wavelength and a width.
+#define DISC_BEAMS 8
 
 typedef struct {
   float size_x, size_y; // of the object
@@ -32,12 +33,12 @@ typedef struct {
   float spreads; // a lamp: one over its distance, as light sees it in the object; 0: parallel light
   int free_heights;
   // Of light with a band or a width: beams that stand for it.
-  float index_spread;                          // between the outermost indices
-  int index_levels;                            // level l has 2^l groups of indices
-  float index_over[2 * BEAMS - 1];             // over n: level after level
-  float index_within[INDEX_LEVELS];            // variance of the index that is left in the groups of a level
-  float disc[2 * DISC_POINTS], coarse_disc[8]; // x and y of points
-  float left_of_disc, left_of_coarse_disc;     // of the variance, for each point
+  float index_spread;                       // between the outermost indices
+  int index_levels;                         // level l has 2^l groups of indices
+  float index_over[2 * BEAMS - 1];          // over n: level after level
+  float index_within[INDEX_LEVELS];         // variance of the index that is left in the groups of a level
+  float disc[2 * DISC_BEAMS], coarse_disc[8];    // x and y of points
+  float left_of_disc, left_of_coarse_disc;  // of the variance, for each point
   float piece_in_cells, wide_in_cells;
 } DeviceLayout;
 

@@ -148,7 +148,7 @@ static inline Beams beams_of(const DeviceLayout* layout, const Facet* facet, flo
                  (float4)(1.0f + slope.x * g.x, slope.y * g.x, slope.x * g.y, 1.0f + slope.y * g.y),
                  (float4)(0.0f),
                  {(float2)(0.0f), (float2)(1.0f)},
-                 transmitted(slope, n, facet->sines) / transmitted((float2)(0.0f), n, facet->sines)};
+                 transmitted(slope, n, facet->sines) / transmitted((float2)(0.0f), n, (float2)(0.0f))};
 #if NEPHROID_INCOMING
   const float2 inside = slope_inside(facet->sines, n);
   if (!layout->free_heights) beams.lit = lit_part(layout, facet, inside, slope, g);
@@ -205,7 +205,7 @@ static inline Footprint footprint(const DeviceLayout* layout, const Facet* facet
     ++level;
   variance += layout->index_within[level] * beams->by_index * beams->by_index;
   print.groups = 1 << level;
-  print.points = !is_wide ? 1 : level == 0 ? DISC_POINTS : 4;
+  print.points = !is_wide ? 1 : level == 0 ? DISC_BEAMS : 4;
   const float2 per_slope = way / (float2)(cell.x, -cell.y);
   print.by_index = beams->by_index * per_slope;
   const float xx = sqrt(both.x), xy = both.x > 0.0f ? both.y / xx : 0.0f, yy = sqrt(fmax(0.0f, both.z - xy * xy));

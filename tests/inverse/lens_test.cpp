@@ -75,24 +75,27 @@ inverse::Target disc(const inverse::Layout& layout)
 
 class Lens : public testing::Test {
 protected:
-  static void advance(inverse::Lens& method, int steps)
+  static void advance_to(inverse::Lens& method, int steps)
   {
-    for (int i = 0; i < steps; ++i) method.advance();
+    while (method.steps() < steps) method.advance();
   }
 
   inverse::Layout layout{
       .size = {60, 40}, .thickness = 12, .facets = {120, 80}, .receiver = {60, 40}, .cells = {30, 20}, .distances = {150}};
   inverse::Target target = disc(layout);
-  inverse::Lens lens{layout, target, own};
+  inverse::Lens lens{layout, target, 0.3, own};
 };
 
 TEST_F(Lens, IsJudgedAsItBelievesAndHasNoWalls)
 {
   const double flat = lens.costs().front().rel_l2;
+  advance_to(lens, 1);
+  const double transported = lens.costs().front().rel_l2;
   while (!lens.finished() && lens.steps() < lens.most()) lens.advance();
   const double believed = lens.costs().front().rel_l2;
-  EXPECT_LT(believed, 0.1);
   EXPECT_GT(flat, 0.5);
+  EXPECT_LT(transported, 0.1);
+  EXPECT_LT(believed, 0.85 * transported) << "corrected by the surface's own light";
   const inverse::Solid solid = lens.solid();
   EXPECT_EQ(solid.highest_wall, 0);
   EXPECT_EQ(std::count(solid.parts.begin(), solid.parts.end(), inverse::Part::wall), 0);
@@ -102,28 +105,31 @@ TEST_F(Lens, IsJudgedAsItBelievesAndHasNoWalls)
   EXPECT_NEAR(judge.fates().sent + judge.fates().reflected + judge.fates().lost, 1, 1e-6);
 }
 
+// Cut within the transport, and between corrections.
 TEST_F(Lens, GoesOnWithTheSameBits)
 {
-  inverse::Lens first(layout, target, own), second(layout, target, own);
-  advance(lens, 6);
-  advance(first, 3);
-  ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
-  advance(second, 3);
-  EXPECT_EQ(lens.steps(), second.steps());
-  EXPECT_EQ(lens.light(0), second.light(0));
+  advance_to(lens, 4);
+  for (const int cut : {10, 42}) {
+    inverse::Lens first(layout, target, 0.3, own), second(layout, target, 0.3, own);
+    for (int i = 0; i < cut; ++i) first.advance();
+    ASSERT_TRUE(test::load<State>(second, test::saved<State>(first)));
+    EXPECT_EQ(first.light(0), second.light(0));
+    advance_to(second, 4);
+    EXPECT_EQ(lens.light(0), second.light(0)) << cut;
+  }
 }
 
 TEST_F(Lens, IsRefusedWhereItReachesTheFront)
 {
   layout.thickness = 0.2;
-  advance(lens, 6);
+  advance_to(lens, 2);
   EXPECT_THAT(refusal_of([&] { lens.solid(); }), StartsWith("p.json#/inverse/thickness_mm: is 0.2 mm, and half of the lens's relief is "));
 }
 
-// Each facet is four triangles about its middle: what a workshop is told is the steepest of them.
+// What a workshop is told is the steepest of its triangles.
 TEST_F(Lens, IsAsSteepAsItsTriangles)
 {
-  advance(lens, 6);
+  advance_to(lens, 2);
   const inverse::Solid solid = lens.solid();
   double steepest = 0;
   for (std::size_t t = 0; t < solid.parts.size(); ++t)
@@ -137,10 +143,40 @@ TEST_F(Lens, IsAsSteepAsItsTriangles)
   EXPECT_THROW(lens.solid(), Error) << "max_slope_deg";
 }
 
+// Both bend the light that they get to the same picture: tilted light falls beside the receiver, were it not bent back.
+TEST_F(Lens, IsLitFromTheSideAndByALamp)
+{
+  using inverse::Light;
+  for (const Light& light : {Light{.tilt_deg = 5, .turn_deg = 30}, Light{.type = Light::Type::point, .distance_mm = 300},
+                             Light{.type = Light::Type::point, .distance_mm = 400, .offset_mm = {30, -20}}}) {
+    inverse::Layout lit = layout;
+    lit.thickness = 20;
+    inverse::set_light(lit, light, own);
+    inverse::Lens method(lit, target, 0.3, own);
+    while (!method.finished() && method.steps() < method.most()) method.advance();
+    const inverse::Solid solid = method.solid();
+    inverse::Judge judge(test::shared_context(), lit, solid, 1);
+    while (!judge.finished()) judge.advance();
+    const inverse::Cost judged = judge.costs({target}).front();
+    EXPECT_LT(judged.rel_l2, 0.07) << light.tilt_deg << " " << light.distance_mm;
+    EXPECT_LT(judged.missed, 0.02);
+    EXPECT_NEAR(judged.rel_l2, method.costs().front().rel_l2, 0.02);
+  }
+}
+
+TEST_F(Lens, IsRefusedWhereItsMeshIsTooLarge)
+{
+  inverse::Lens fine(layout, target, 0.001, own);
+  advance_to(fine, 1);
+  const std::string said = refusal_of([&] { fine.solid(); });
+  EXPECT_THAT(said, StartsWith("p.json#/inverse/mesh_error: is 0.001, for which the lens takes some "));
+  EXPECT_THAT(said, HasSubstr(" million triangles, an STL of "));
+}
+
 TEST_F(Lens, KeepsAWorkshopsRelief)
 {
   layout.band = 0.1;
-  advance(lens, 6);
+  advance_to(lens, 2);
   EXPECT_THROW(lens.solid(), Error);
 }
 
@@ -152,8 +188,8 @@ TEST_F(Lens, HasNarrowObjectsAndFinePictures)
   layout.cells = {1000, 2};
   target.assign(2000, 0);
   target[500] = 1;
-  inverse::Lens narrow(layout, target, own);
-  advance(narrow, 3);
+  inverse::Lens narrow(layout, target, 0.3, own);
+  advance_to(narrow, 2);
   EXPECT_TRUE(std::isfinite(narrow.costs().front().rel_l2));
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words, QR codes, grey levels and tones as light a cell.
-#include "image/image.h"
+// Words, QR codes and grey levels as light a cell.
 #include "inverse/pictures/target.h"
 #include "tests/support/test.h"
 
@@ -109,37 +108,6 @@ TEST(Pictures, AFaceHasGreyLevels)
   };
   for (const double side : {-0.35, 0.35}) EXPECT_LT(at(side, 0.25), 0.4 * at(side, 0.65));
   EXPECT_LT(at(0, -0.55), 0.4 * at(0, -0.2));
-}
-
-class PictureFiles : public testing::Test {
-protected:
-  test::TemporaryFolder folder;
-  std::string file = (folder.path() / "p").string();
-};
-
-TEST_F(PictureFiles, ToneIsAnExponent)
-{
-  image::write_exr(file + ".exr", {2, 1, {"Y"}, {2.0f, 4.0f}, {}, false});
-  Picture picture{.type = Picture::Type::file, .file = file + ".exr", .tone = 2};
-  const Target target = made(picture, cells(2, 1));
-  EXPECT_NEAR(target[0], 0.2, 1e-9); // (1/2)^2 of 1 + (1/2)^2
-  EXPECT_NEAR(target[1], 0.8, 1e-9);
-}
-
-// A header that promises 43 GB of floats.
-TEST_F(PictureFiles, AreDarkWhereTheyAreTransparent)
-{
-  image::write_png_bytes(folder.path() / "cut.png", 2, 1, {255, 255, 255, 0, 255, 255, 255, 255});
-  const inverse::Grey grey = inverse::read_grey(folder.path() / "cut.png");
-  EXPECT_THAT(grey.values, ElementsAre(0, 1));
-}
-
-TEST_F(PictureFiles, AreRefusedWhereTheyAreHuge)
-{
-  std::ofstream(file + ".hdr", std::ios::binary) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n";
-  Picture picture{.type = Picture::Type::file, .file = file + ".hdr"};
-  EXPECT_THAT(test::refusal_of([&] { made(picture, cells(8, 8)); }),
-              AllOf(HasSubstr("p.hdr"), HasSubstr("60000 x 60000 pixels of 3 channels, and at most 2^29 values are read")));
 }
 
 } // namespace nephroid::pictures_test

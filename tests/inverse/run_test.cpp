@@ -5,6 +5,7 @@
 #include "inverse/engine.h"
 #include "preset/read.h"
 #include "tests/support/program_test.h"
+#include "tests/support/render.h"
 #include "tests/support/x_display.h"
 
 namespace nephroid::run_test {

@@ -41,7 +41,9 @@ TEST_F(AnnealingPanelTest, EveryCurveOfTheRunIsPlottedLogOrLinear)
   EXPECT_EQ(cost.x, "sweep");
   std::vector<std::string> names;
   for (const HistoryLine& line : cost.lines) names.push_back(line.name);
-  EXPECT_THAT(names, ElementsAre("cost", "cost_all", "rel_l2", "missed"));
+  EXPECT_THAT(names, ElementsAre("cost", "cost_all", "rel_l2", "missed", "judged"));
+  EXPECT_THAT(cost.lines[4].x, ElementsAre(3));
+  EXPECT_NEAR(cost.lines[4].y[0], cost.lines[0].y.back(), 0.1 * cost.lines[0].y.back());
   EXPECT_THAT(cost.lines[0].x, ElementsAre(0, 1, 2, 3));
   EXPECT_LT(cost.lines[0].y.back(), 0.5 * cost.lines[0].y.front());
   click_widget("over seconds");
@@ -80,10 +82,28 @@ TEST_F(AnnealingPanelTest, ALogAxisHasFourDecadesAtMost)
 TEST_F(AnnealingPanelTest, EveryReceiverHasItsPictures)
 {
   run_through(test::inverse_text(2));
-  for (const char* name : {"target_1", "receiver_1", "difference_1", "target_2", "receiver_2", "difference_2", "slopes", "conflict"})
+  for (const char* name :
+       {"target_1", "best_1", "receiver_1", "difference_1", "target_2", "best_2", "receiver_2", "difference_2", "slopes", "conflict"})
     EXPECT_GT(panel().area_of(name)[2], 50) << name;
   EXPECT_LT(panel().area_of("target_1")[1], panel().area_of("receiver_1")[1]);
   EXPECT_LT(panel().area_of("target_1")[0], panel().area_of("target_2")[0]);
+}
+
+// The View has the object; held against something, the sheet of pictures. A drag turns it, and the run goes on.
+TEST_F(AnnealingPanelTest, TheViewShowsTheObjectAndTurnsIt)
+{
+  run_through(test::inverse_text(1));
+  const auto before = workbench.run().snapshot();
+  EXPECT_EQ(workbench.comparing().source(), before->in_view);
+  const preset::Camera seen_by = engine::camera_of(*workbench.preset());
+  drag(0, 60, 0);
+  EXPECT_TRUE(until([&] { return workbench.run().snapshot()->in_view->rgb != before->in_view->rgb; }));
+  EXPECT_EQ(runs.made, 1);
+  const preset::Camera& turned = workbench.preset()->scene.camera; // about the object, from where it was seen
+  EXPECT_NEAR(turned.position[2], seen_by.position[2], 1e-6);
+  EXPECT_GT(std::abs(turned.position[0] - seen_by.position[0]), 10);
+  apply({command::PinRun{}, command::Arrange{Arrangement::side_by_side}});
+  EXPECT_EQ(workbench.comparing().source(), workbench.run().snapshot()->picture);
 }
 
 // By hand: the light of a facet at p with slope s is at p + s d, in cells from the receiver's top left corner.
@@ -108,6 +128,18 @@ TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
   EXPECT_EQ(beam.facet, glm::ivec2(x, y));
   const job::Picture& slopes = picture("slopes");
   ASSERT_THAT(beam.prints, SizeIs(2));
+  ASSERT_THAT(workbench.chosen().lines, SizeIs(3)); // the View's: its way, and a box on each receiver
+  EXPECT_NEAR(workbench.chosen().lines[0].back()[0], spot(x, y, facets, 200).x, 1e-4);
+  EXPECT_NEAR(workbench.chosen().lines[0].back()[1], spot(x, y, facets, 200).y, 1e-4);
+  EXPECT_EQ(workbench.chosen().lines[0].back()[2], -200);
+  for (const std::size_t j : {0u, 1u}) { // a box is about its beam
+    const glm::dvec2 at = spot(x, y, facets, 100 * static_cast<double>(j + 1));
+    const auto& box = workbench.chosen().lines[j + 1];
+    EXPECT_LT(box[0][0], at.x);
+    EXPECT_GT(box[2][0], at.x);
+    EXPECT_GT(box[0][1], at.y);
+    EXPECT_LT(box[2][1], at.y);
+  }
   for (const std::size_t j : {0u, 1u}) {
     const double distance = 100 * static_cast<double>(j + 1);
     const glm::dvec2 at = spot(x, y, facets, distance);

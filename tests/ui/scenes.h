@@ -115,14 +115,14 @@ public:
   }
 };
 
-/// Real runs of engine 3, which computes on the host.
+/// Real runs of engine 3, short enough for a test.
 class InverseRuns : public FakeRuns {
 public:
   ui::NewRun make(const preset::Preset& preset, const Watch&) override
   {
     ++made;
     auto made_plan = std::make_shared<const inverse::InversePlan>(inverse::make_plan(preset));
-    return {inverse::make_job(preset, *made_plan), made_plan, nullptr};
+    return {inverse::make_job(preset, *made_plan, shared_context()), made_plan, nullptr};
   }
 };
 

@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "measure/read_picture.h"
 #include "tests/support/test.h"
+#include "tests/support/tiff.h"
 
 #include <sys/mount.h>
 
@@ -81,35 +82,17 @@ TEST(Shown, EqualsTheRoundedEncodingEverywhere)
   EXPECT_EQ(shown(std::numeric_limits<float>::quiet_NaN(), 1), 0);
 }
 
-/// A little-endian TIFF of one byte a pixel.
-std::string tiff(int width, int height, int orientation, const std::string& pixels)
-{
-  std::string bytes = "II";
-  const auto put = [&](std::uint32_t value, int size) {
-    for (int i = 0; i < size; ++i) bytes.push_back(static_cast<char>(value >> (8 * i) & 255));
-  };
-  const std::vector<std::pair<int, int>> tags{{256, width}, {257, height},      {258, 8}, {259, 1},      {262, 1},
-                                              {273, 0},     {274, orientation}, {277, 1}, {278, height}, {279, width * height}};
-  const std::uint32_t strip = 8 + 2 + 12 * static_cast<std::uint32_t>(tags.size()) + 4;
-  put(42, 2), put(8, 4), put(static_cast<std::uint32_t>(tags.size()), 2);
-  for (const auto& [tag, value] : tags)
-    put(static_cast<std::uint32_t>(tag), 2), put(tag == 273 ? 4 : 3, 2), put(1, 4),
-        put(tag == 273 ? strip : static_cast<std::uint32_t>(value), 4);
-  put(0, 4);
-  return bytes + pixels;
-}
-
 // As phones write pictures: 6 says that the first row is the right column of what was seen.
 TEST_F(Pictures, AreTurnedAsTheirFileSays)
 {
-  write_file_whole(folder / "as-seen.tif", tiff(3, 1, 1, "\x10\x20\x30"));
-  write_file_whole(folder / "turned.tif", tiff(3, 1, 6, "\x10\x20\x30"));
+  write_file_whole(folder / "as-seen.tif", test::tiff(3, 1, 1, "\x10\x20\x30"));
+  write_file_whole(folder / "turned.tif", test::tiff(3, 1, 6, "\x10\x20\x30"));
   const Image as_seen = read_image(folder / "as-seen.tif"), turned = read_image(folder / "turned.tif");
   EXPECT_EQ(as_seen.width, 3);
   EXPECT_EQ(turned.width, 1);
   ASSERT_EQ(turned.height, 3);
   EXPECT_EQ(turned.data, as_seen.data);
-  write_file_whole(folder / "mirrored.tif", tiff(3, 1, 2, "\x10\x20\x30"));
+  write_file_whole(folder / "mirrored.tif", test::tiff(3, 1, 2, "\x10\x20\x30"));
   const Image mirrored = read_image(folder / "mirrored.tif");
   EXPECT_EQ(mirrored.data, (std::vector<float>{as_seen.data[2], as_seen.data[1], as_seen.data[0]}));
 }

@@ -170,6 +170,10 @@ struct InspectPixel {
 struct SelectRegion {
   std::optional<PixelRegion> region;
 };
+/// What a panel shows in the View's picture: lines from point to point, in the preset's coordinates.
+struct ShowLines {
+  std::vector<std::vector<preset::Vec3>> lines;
+};
 /// Keeps the history and the picture of the run as they are now.
 struct PinRun {};
 /// A picture, or the history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. Read in the background.
@@ -277,12 +281,12 @@ using Command =
     std::variant<command::Open, command::OpenMap, command::New, command::Edit, command::SetSweep, command::StartSweep, command::StopSweep,
                  command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel, command::Pause, command::SetLook,
                  command::Flip, command::CompareWith, command::ShowPicture, command::Arrange, command::MoveSplit, command::ShowDifference,
-                 command::ShowLayer, command::InspectPixel, command::SelectRegion, command::PinRun, command::PinFile, command::ChangePin,
-                 command::Unpin, command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion, command::Select,
-                 command::SetHandles, command::Nudged, command::SetBookmarks, command::Ask, command::SavePreset, command::SavePicture,
-                 command::OpenResult, command::WriteReport, command::Dismiss, command::ReopenSession, command::ReloadPreset,
-                 command::ToggleHelp, command::ResetLayout, command::KeepLayout, command::ShowPanel, command::SetAppearance,
-                 command::Report, command::Quit>;
+                 command::ShowLayer, command::InspectPixel, command::SelectRegion, command::ShowLines, command::PinRun, command::PinFile,
+                 command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion,
+                 command::Select, command::SetHandles, command::Nudged, command::SetBookmarks, command::Ask, command::SavePreset,
+                 command::SavePicture, command::OpenResult, command::WriteReport, command::Dismiss, command::ReopenSession,
+                 command::ReloadPreset, command::ToggleHelp, command::ResetLayout, command::KeepLayout, command::ShowPanel,
+                 command::SetAppearance, command::Report, command::Quit>;
 using Commands = std::vector<Command>;
 
 } // namespace nephroid::ui

@@ -97,10 +97,17 @@ Comparing::Side Comparing::side_of(const PinnedRun& pin) const
   return {pin.picture, pin.picture->width, pin.picture->height, &pin.picture->rgb, &pin.picture->layers, pin.name, quoted};
 }
 
+/// Of the snapshot, which is there. Designs are compared by what they cast.
+std::shared_ptr<const job::Picture> Comparing::run_picture() const
+{
+  const job::Snapshot& snapshot = *run_.snapshot();
+  return shows_run_alone() && snapshot.in_view ? snapshot.in_view : snapshot.picture;
+}
+
 Comparing::Side Comparing::run_side() const
 {
   if (!run_.snapshot()) return {.why_not = "there is no picture yet"};
-  const auto& picture = run_.snapshot()->picture;
+  const auto picture = run_picture();
   return {picture, picture->width, picture->height, &picture->rgb, &picture->layers, "the run", "the run's picture"};
 }
 
@@ -141,7 +148,7 @@ std::string Comparing::why_no_layer(const Side& side, const std::string& layer)
 std::shared_ptr<const job::Picture> Comparing::source() const
 {
   if (const PinnedRun* pin = pinned_.find(comparison_.shown)) return pin->picture;
-  return run_.snapshot() ? run_.snapshot()->picture : nullptr;
+  return run_.snapshot() ? run_picture() : nullptr;
 }
 
 std::string Comparing::name() const

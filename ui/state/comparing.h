@@ -51,6 +51,12 @@ public:
 
   const PinnedRuns& pinned() const { return pinned_; }
   const Comparison& comparison() const { return comparison_; }
+  /// Whether the run's picture is shown, and nothing beside it or in its place.
+  bool shows_run_alone() const
+  {
+    const Comparison& c = comparison_;
+    return c.shown == 0 && c.arrangement == Arrangement::single && !c.flip && !c.difference;
+  }
   /// What is shown, with all of its layers: the run's, or that of the pinned run or opened picture that comparison() names. Null: none yet.
   std::shared_ptr<const job::Picture> source() const;
   /// "this run", or the name of the pinned run or picture in quotes; and of what it is compared with, "Reference" too.
@@ -110,6 +116,7 @@ private:
     std::string why_not = {}; ///< there is none
   };
   Side side_of(const PinnedRun& pin) const;
+  std::shared_ptr<const job::Picture> run_picture() const;
   Side run_side() const;
   Side side() const;
   Side other_side() const;

@@ -21,11 +21,12 @@ namespace nephroid::ui {
 /// What a person chose to see. Nothing here needs a new run.
 struct Chosen {
   Look look;
-  std::string error_metric;                ///< to be plotted; empty: the run's own. Not every run has it.
-  std::optional<std::array<int, 2>> pixel; ///< that is inspected: column and row; may lie outside of the picture
-  std::optional<PixelRegion> region;       ///< that there are statistics of; may reach out of the picture, is never empty
-  std::string material;                    ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
-  Selection selection;                     ///< may be of a preset that was: in_preset()
+  std::string error_metric;                     ///< to be plotted; empty: the run's own. Not every run has it.
+  std::optional<std::array<int, 2>> pixel;      ///< that is inspected: column and row; may lie outside of the picture
+  std::optional<PixelRegion> region;            ///< that there are statistics of; may reach out of the picture, is never empty
+  std::vector<std::vector<preset::Vec3>> lines; ///< over the View's picture: command::ShowLines
+  std::string material;                         ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
+  Selection selection;                          ///< may be of a preset that was: in_preset()
   Handles handles;
   command::Nudged nudged;          ///< the newest
   std::vector<Bookmark> bookmarks; ///< of cameras

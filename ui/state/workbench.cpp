@@ -80,6 +80,7 @@ void Workbench::let_go()
   run_.forget();
   chosen_.look = Look{};
   chosen_.region.reset();
+  chosen_.lines.clear();
   carry_out(command::InspectPixel{});
   chosen_.selection = {};
   tasks_.forget(meshes_);

@@ -92,6 +92,7 @@ private:
   void carry_out(const command::SetLook& c);
   void carry_out(const command::InspectPixel& c);
   void carry_out(const command::SelectRegion& c);
+  void carry_out(const command::ShowLines& c) { chosen_.lines = c.lines; }
   void carry_out(const command::PinFile& c)
   {
     close_question();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/view/panel.h"
 
+#include "engine/engine.h"
 #include "ui/view/bars.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
@@ -42,6 +43,20 @@ void draw_marks(const Chosen& chosen, const Placement& placement, const std::arr
   }
   if (const auto& pixel = chosen.pixel; pixel && (*pixel)[0] < picture[0] && (*pixel)[1] < picture[1])
     draw_frame(placement, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::on_dark, 5);
+}
+
+/// What a panel shows in the picture (command::ShowLines), with a dark rim.
+void draw_lines(const Context& context, const Placement& placement, const std::array<int, 2>& picture)
+{
+  if (context.chosen.lines.empty() || !context.preset() || !context.comparing.shows_run_alone()) return;
+  const auto sight = make_sight(engine::camera_of(*context.preset()), placement, picture);
+  if (!sight) return;
+  for (const auto& [colour, width] : {std::pair{colour::outline, 3.0f}, std::pair{colour::accent, 1.5f}})
+    for (const std::vector<preset::Vec3>& line : context.chosen.lines)
+      for (std::size_t i = 1; i < line.size(); ++i) {
+        const auto from = sight->to_screen(to_vector(line[i - 1])), to = sight->to_screen(to_vector(line[i]));
+        if (from && to) ImGui::GetWindowDrawList()->AddLine(vec(*from), vec(*to), colour, width * scale());
+      }
 }
 
 } // namespace
@@ -172,6 +187,7 @@ void ViewPanel::draw_pictures(const Context& context)
   };
   within(seen_first_, [&] {
     draw_picture(shown_, first_, first);
+    draw_lines(context, first, shown_.size);
     overlay_.draw(context, canvas_, shown_.size, hovered_ && !on_second_);
   });
   use_mouse(context); // after the handles, which have it first
@@ -274,7 +290,7 @@ void ViewPanel::start_drag(const Context& context)
   if (!is_of_camera && drag_ != Drag::mark) drag_ = Drag::move_picture;
   drag_from_ = pointer();
   moved_ = false;
-  camera_at_start_ = context.preset()->scene.camera;
+  camera_at_start_ = engine::camera_of(*context.preset());
   look_at_start_ = context.chosen.look;
   gestures_.begin();
 }
@@ -342,7 +358,7 @@ void ViewPanel::use_wheel(const Context& context)
   last_wheel_s_ = now;
   const double factor = std::pow(notch, -io.MouseWheel);
   context.edit(
-      "distance of the camera", [&](preset::Preset& p) { p.scene.camera = dolly(p.scene.camera, factor); }, gestures_.number());
+      "distance of the camera", [&](preset::Preset& p) { p.scene.camera = dolly(engine::camera_of(p), factor); }, gestures_.number());
 }
 
 } // namespace nephroid::ui

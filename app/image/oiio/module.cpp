@@ -8,7 +8,9 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
 #include <utility>
@@ -53,20 +55,42 @@ std::vector<std::pair<std::string, std::string>> texts_of(const ImageSpec& spec)
 
 /// Of a picture that is read: 2 GiB of floats, such as 16384 x 8192 pixels of four channels. A file can say that it has more than any
 /// memory.
-constexpr std::size_t most_values = std::size_t{1} << 29;
+constexpr int most_values_log2 = 29;
+/// The same of one that is read in bands: what a minute reads.
+constexpr int most_band_values_log2 = 32;
+/// Of a band: 16 MiB.
+constexpr std::size_t band_values = std::size_t{1} << 22;
 
-const char* read(const char* file, void (*take)(void*, const NephroidPicture*), void* context)
+std::size_t values_of(const ImageSpec& spec) { return spec.image_pixels() * static_cast<std::size_t>(spec.nchannels); }
+
+/// Opens it as `input`. Null, or the reason why it is not read.
+const char* open(const char* file, int most_log2, std::unique_ptr<ImageInput>& input)
 {
   ImageSpec wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1); // else OpenImageIO multiplies the colours of a PNG by its alpha
-  const auto input = ImageInput::open(file, &wishes);
+  input = ImageInput::open(file, &wishes);
   if (!input) return reason(geterror());
   const ImageSpec& spec = input->spec();
   if (spec.depth > 1) return "it is a volume, not a picture";
-  const std::size_t values = spec.image_pixels() * static_cast<std::size_t>(spec.nchannels);
-  if (values > most_values)
+  if (values_of(spec) > std::size_t{1} << most_log2)
     return reason("it has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " pixels of " +
-                  std::to_string(spec.nchannels) + " channels, and at most 2^29 values are read");
+                  std::to_string(spec.nchannels) + " channels, and at most 2^" + std::to_string(most_log2) + " values are read");
+  return nullptr;
+}
+
+std::vector<const char*> channels_of(const ImageSpec& spec)
+{
+  std::vector<const char*> channels;
+  for (const std::string& name : spec.channelnames) channels.push_back(name.c_str());
+  return channels;
+}
+
+const char* read(const char* file, void (*take)(void*, const NephroidPicture*), void* context)
+{
+  std::unique_ptr<ImageInput> input;
+  if (const char* why = open(file, most_values_log2, input)) return why;
+  const ImageSpec& spec = input->spec();
+  const std::size_t values = values_of(spec);
   std::vector<float> floats(values);
   if (!input->read_image(0, 0, 0, spec.nchannels, TypeFloat, floats.data())) return reason(input->geterror());
   int width = spec.width, height = spec.height;
@@ -80,8 +104,7 @@ const char* read(const char* file, void (*take)(void*, const NephroidPicture*), 
     width = upright.spec().width;
     height = upright.spec().height;
   }
-  std::vector<const char*> channels;
-  for (const std::string& name : spec.channelnames) channels.push_back(name.c_str());
+  const std::vector<const char*> channels = channels_of(spec);
   const auto texts = texts_of(spec);
   std::vector<NephroidAttribute> attributes;
   for (const auto& [name, value] : texts) attributes.push_back({name.c_str(), value.c_str()});
@@ -95,6 +118,33 @@ const char* read(const char* file, void (*take)(void*, const NephroidPicture*), 
                                 attributes.size(),
                                 !spec.format.is_floating_point()};
   take(context, &picture);
+  return nullptr;
+}
+
+const char* read_bands(const char* file, bool (*take)(void*, const NephroidBand*), void* context)
+{
+  std::unique_ptr<ImageInput> input;
+  if (const char* why = open(file, most_band_values_log2, input)) return why;
+  const ImageSpec& spec = input->spec();
+  const std::vector<const char*> channels = channels_of(spec);
+  const std::size_t row = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
+  int rows = static_cast<int>(std::max<std::size_t>(1, band_values / row));
+  if (spec.tile_width > 0) rows = std::max(1, rows / spec.tile_height) * spec.tile_height; // tiles are read whole
+  std::vector<float> floats;
+  for (int first = 0; first < spec.height; first += rows) {
+    const int count = std::min(rows, spec.height - first), begin = spec.y + first, end = begin + count;
+    floats.resize(row * static_cast<std::size_t>(count));
+    const bool done = spec.tile_width > 0 ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
+                                                              spec.nchannels, TypeFloat, floats.data())
+                                          : input->read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, TypeFloat, floats.data());
+    if (!done) return reason(input->geterror());
+    const NephroidBand band{
+        {spec.width, count, spec.nchannels, channels.data(), floats.data(), nullptr, nullptr, 0, !spec.format.is_floating_point()},
+        first,
+        spec.height,
+        spec.get_int_attribute("Orientation", 1)};
+    if (!take(context, &band)) return nullptr;
+  }
   return nullptr;
 }
 
@@ -155,6 +205,12 @@ extern "C" {
 [[gnu::visibility("default")]] const char* nephroid_image_read(const char* file, void (*take)(void*, const NephroidPicture*), void* context)
 {
   return guarded([&] { return read(file, take, context); });
+}
+
+[[gnu::visibility("default")]] const char* nephroid_image_read_bands(const char* file, bool (*take)(void*, const NephroidBand*),
+                                                                     void* context)
+{
+  return guarded([&] { return read_bands(file, take, context); });
 }
 
 [[gnu::visibility("default")]] const char* nephroid_image_encode(const NephroidPicture* picture,

@@ -8,7 +8,7 @@
 #include <string>
 
 namespace nephroid::inverse {
-static_assert(BEAMS == Beams::most);
+static_assert(BEAMS == Beams::most && DISC_BEAMS == disc_beams);
 
 namespace {
 
@@ -83,7 +83,7 @@ shared::DeviceLayout device_layout(const Layout& l)
                             .index_within = {},
                             .disc = {},
                             .coarse_disc = {},
-                            .left_of_disc = number(left_of_disc(DISC_POINTS)),
+                            .left_of_disc = number(left_of_disc(DISC_BEAMS)),
                             .left_of_coarse_disc = number(left_of_disc(4)),
                             .piece_in_cells = number(piece_in_cells),
                             .wide_in_cells = number(wide_in_cells)};
@@ -99,7 +99,7 @@ shared::DeviceLayout device_layout(const Layout& l)
       *to++ = number(p.y);
     }
   };
-  put_points(DISC_POINTS, made.disc);
+  put_points(DISC_BEAMS, made.disc);
   put_points(4, made.coarse_disc);
   return made;
 }

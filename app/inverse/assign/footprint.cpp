@@ -112,7 +112,7 @@ Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, 
     root[0][0] = std::sqrt(both[0][0]);
     root[0][1] = both[0][1] / root[0][0];
     root[1][1] = std::sqrt(std::max(0.0, both[1][1] - root[0][1] * root[0][1]));
-    part_disc(root, blur.count == 1 ? 8 : 4, blur);
+    part_disc(root, blur.count == 1 ? disc_beams : 4, blur);
   } else
     blur.variance += glm::dvec2(both[0][0], both[1][1]);
   return blur;
@@ -140,7 +140,7 @@ IndexGroups index_groups(const Layout& layout, int count)
 
 std::vector<glm::dvec2> disc_points(int count)
 {
-  const double r = std::sqrt(2 * (1 - left_of_disc(count))), first = count == 8 ? 1.0 / 16 : 1.0 / 6;
+  const double r = std::sqrt(2 * (1 - left_of_disc(count))), first = count == disc_beams ? 1.0 / 16 : 1.0 / 6;
   std::vector<glm::dvec2> points;
   for (int i = 0; i < count; ++i) {
     const double phi = 2 * glm::pi<double>() * (first + static_cast<double>(i) / count);

@@ -29,11 +29,12 @@ struct IndexGroups {
 };
 IndexGroups index_groups(const Layout& layout, int count);
 
-/// A disc of a variance of 1 along each axis as 8 or 4 points on a circle, less what is left of the variance for a box about each.
-/// Radius, angle and boxes are those next to a disc: as seen in cells 0.5 to 1.2 of which are its radius, 0.002 to 0.02 of the light is
-/// elsewhere with 8, and 0.01 to 0.1 with 4 or a box alone.
+/// Points on a circle that stand for a disc with a variance of 1 along each axis, disc_beams or 4, less what is left for a box about each.
+/// Between the axes 8 with such boxes are next to a disc: as seen in cells 0.5 to 1.2 of which are its radius, 0.002 to 0.02 of it is
+/// elsewhere; a box alone is 0.01 to 0.1 off.
+inline constexpr int disc_beams = 8;
 std::vector<glm::dvec2> disc_points(int count);
-constexpr double left_of_disc(int points) { return points == 8 ? 0.22 : 0.27; }
+constexpr double left_of_disc(int points) { return points == disc_beams ? 0.22 : 0.27; }
 
 /// Light of a facet on its way to a receiver, in cells: beams that are alike, each shifted from the middle, with equal parts of the light.
 /// A beam is a product: what lands in a cell is the part along x times the part along y.

@@ -122,8 +122,10 @@ image::Image height_map(const Layout& layout, const Solid& solid)
   const auto from_middle = [&](int i) { return i % across + 0.5 - across / 2.0; };
   for (int y = 0; y < map.height; ++y)
     for (int x = map.width - 1; x >= 0; --x) {
-      const Facet& f = solid.facets[index_at(x / across, y / across, layout.facets.x)];
-      const double z = f.height + glm::dot(f.gradient, glm::dvec2(from_middle(x), -from_middle(y)) * pixel);
+      const std::size_t facet = index_at(x / across, y / across, layout.facets.x);
+      const Facet& f = solid.facets[facet];
+      const glm::dvec2 beside = glm::dvec2(from_middle(x), -from_middle(y)) * pixel;
+      const double z = solid.surface ? solid.surface->at(layout.middle(facet) + beside).z : f.height + glm::dot(f.gradient, beside);
       map.data.push_back(static_cast<float>(layout.thickness - z));
     }
   map.attributes["ImageDescription"] = "thickness in mm; " + scale_of(layout);

@@ -117,23 +117,6 @@ public:
       solid_.facets.push_back({slopes[i], facet_gradient(slopes[i], layout.n, layout.sines_on(i)), heights[i]});
   }
 
-  /// corners: z where facets meet, row by row, one more across and down than facets.
-  Builder(const Layout& layout, const std::vector<double>& corners)
-      : layout_(layout), nx_(layout.facets.x), ny_(layout.facets.y), corners_(corners)
-  {
-    for (int row = 0; row < ny_; ++row)
-      for (int column = 0; column < nx_; ++column) {
-        const double a = corner(column, row), b = corner(column + 1, row), c = corner(column, row + 1), d = corner(column + 1, row + 1);
-        const glm::dvec2 gradient{(b + d - a - c) / (2 * layout.facet().x), (a + b - c - d) / (2 * layout.facet().y)};
-        solid_.facets.push_back({facet_slope(gradient, layout.n), gradient, (a + b + c + d) / 4});
-        for (const glm::dvec2& side : {glm::dvec2(b - a, (a + b - c - d) / 2),
-                                       {d - c, (a + b - c - d) / 2},
-                                       {(b + d - a - c) / 2, a - c},
-                                       {(b + d - a - c) / 2, b - d}}) // its four triangles
-          lean(side / layout.facet());
-      }
-  }
-
   Solid build()
   {
     make_posts();
@@ -155,12 +138,9 @@ private:
   double height(int column, int row, const glm::dvec2& half) const
   {
     if (!is_facet(column, row)) return layout_.thickness;
-    if (!corners_.empty()) return corner(half.x < 0 ? column : column + 1, half.y < 0 ? row + 1 : row);
     const Facet& facet = solid_.facets[index_at(column, row, nx_)];
     return facet.height + glm::dot(facet.gradient, half);
   }
-
-  double corner(int a, int b) const { return corners_[index_at(a, b, nx_ + 1)]; }
 
   glm::dvec2 place(int a, int b) const
   {
@@ -190,8 +170,7 @@ private:
             solid_.highest = std::max(solid_.highest, heights[f]);
           }
       }
-    if (corners_.empty())
-      for (const Facet& f : solid_.facets) lean(f.gradient);
+    for (const Facet& f : solid_.facets) lean(f.gradient);
   }
 
   void lean(const glm::dvec2& gradient)
@@ -317,7 +296,6 @@ private:
 
   const Layout& layout_;
   int nx_, ny_;
-  std::vector<double> corners_; ///< of a surface without walls; else empty
   std::vector<Post> posts_;
   std::vector<std::optional<Vertex>> down_, across_; ///< crossings, of the lines from a post down and to the right
   Solid solid_;
@@ -335,7 +313,5 @@ Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes)
 {
   return make_solid(layout, slopes, heights_of(layout, slopes));
 }
-
-Solid make_smooth_solid(const Layout& layout, const std::vector<double>& corners) { return Builder(layout, corners).build(); }
 
 } // namespace nephroid::inverse

@@ -2,9 +2,11 @@
 // The object as one closed solid in millimetres (thesis section 5.4.2): planar facets about z = 0, vertical walls between
 // them, flat sides, and the flat front at z = thickness.
 #pragma once
+#include "inverse/facets/surface.h"
 #include "inverse/layout.h"
 #include "scene/mesh.h"
 
+#include <memory>
 #include <span>
 
 namespace nephroid::inverse {
@@ -18,14 +20,15 @@ struct Facet {
 };
 
 struct Solid {
-  scene::Mesh mesh;               ///< counter-clockwise seen from outside
-  std::vector<Part> parts;        ///< of each triangle
-  std::vector<Facet> facets;      ///< as the layout counts them
-  double lowest = 0, highest = 0; ///< z of the facets' corners
-  double steepest_deg = 0;        ///< between a facet and the front
-  double highest_wall = 0;        ///< between two facets
-  double wall_area = 0;           ///< mm^2, between facets
-  double steepest_wall_deg = 90;  ///< between a wall and the front
+  scene::Mesh mesh;                       ///< counter-clockwise seen from outside
+  std::vector<Part> parts;                ///< of each triangle
+  std::vector<Facet> facets;              ///< as the layout counts them
+  double lowest = 0, highest = 0;         ///< z of the facets' corners
+  double steepest_deg = 0;                ///< between a facet and the front
+  double highest_wall = 0;                ///< between two facets
+  double wall_area = 0;                   ///< mm^2, between facets
+  std::shared_ptr<const Surface> surface; ///< of a lens: what its triangles stand for
+  double steepest_wall_deg = 90;          ///< between a wall and the front
   double relief() const { return highest - lowest; }
 };
 
@@ -33,10 +36,6 @@ struct Solid {
 /// heights: z of the facets' middles; as the layout says where they are left out.
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights);
 Solid make_solid(const Layout& layout, const std::vector<glm::dvec2>& slopes);
-
-/// Without walls: neighbours share their corners. A facet is four triangles about its middle. corners: z, row by row from the top, one more
-/// across and down than facets.
-Solid make_smooth_solid(const Layout& layout, const std::vector<double>& corners);
 
 /// Along z a facet may be moved at hardly any optical cost, so that its edges meet those of its neighbours.
 /// z of the facets' middles for which the walls between them are lowest: the least sum over shared edges of the integral of the squared

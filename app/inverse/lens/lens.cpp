@@ -2,8 +2,10 @@
 #include "inverse/lens/lens.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
+#include "inverse/facets/smooth_solid.h"
 
 #include <fmt/format.h>
 
@@ -13,46 +15,108 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Cells of the grid along its longer side: several a cell of the picture, and no more than a step can do in half a second.
-int grid_cells(const Layout& layout) { return std::clamp(4 * std::max(layout.cells.x, layout.cells.y), 128, 512); }
-/// How often heights are made anew: light starts from them, so that they change where it has to be sent.
-constexpr int rounds = 4;
+/// Cells of the finest grid along its longer side: several a cell of the picture.
+int most_cells(const Layout& layout) { return std::clamp(4 * std::max(layout.cells.x, layout.cells.y), 128, 512); }
+/// Of the transport's: corrections do the rest sooner.
+int transport_cells(const Layout& layout) { return std::min(256, most_cells(layout)); }
+
+/// Steps of it.
+constexpr int moves = 40;
+/// How often heights are made anew from where the transport sends the light: it starts from them.
+constexpr int rounds = 3;
+/// A correction that gains a smaller part of the error gains too little.
+constexpr double worth = 0.02;
 
 glm::dvec2 domain_of(const Layout& layout) { return glm::max(layout.size, layout.receiver); }
 
-/// What a centred rectangle of so many cells brings to each cell of the grid, by the parts in which they overlap.
-Grid on_grid(const Layout& layout, const glm::dvec2& rectangle, const glm::ivec2& cells, const std::vector<double>& values)
+/// Parts of a facet along a side, in which the light of the surface is seen.
+int parts_of_facet(const Layout& layout)
+{
+  const glm::dvec2 a_cell = layout.facet() / layout.cell();
+  return std::clamp(static_cast<int>(std::ceil(3 * std::max(a_cell.x, a_cell.y))), 1, 4);
+}
+
+/// What a centred rectangle of so many cells brings to each cell of a grid over the domain, by the parts in which they overlap.
+Grid on_grid(const Layout& layout, int grid_cells, const glm::dvec2& rectangle, const glm::ivec2& cells, const std::vector<double>& values)
 {
   const glm::dvec2 domain = domain_of(layout);
-  const double cell = std::max(domain.x, domain.y) / grid_cells(layout);
+  const double cell = std::max(domain.x, domain.y) / grid_cells;
   const auto overlaps = [&](int axis) { // [cell][cell of the grid]: part of the first; x to the right, y down
     const Eigen::Index count = std::max(2L, std::lround(domain[axis] / cell)); // Transport interpolates between two
     const double step = domain[axis] / static_cast<double>(count), side = rectangle[axis] / cells[axis],
                  begin = (domain[axis] - rectangle[axis]) / 2;
-    Grid parts(cells[axis], count);
-    for (int i = 0; i < cells[axis]; ++i)
-      for (Eigen::Index k = 0; k < count; ++k) {
-        const double low = begin + i * side, from = static_cast<double>(k) * step;
+    Grid parts = Grid::Zero(cells[axis], count);
+    for (int i = 0; i < cells[axis]; ++i) {
+      const double low = begin + i * side;
+      for (auto k = static_cast<Eigen::Index>(std::max(0.0, low / step)); k < count; ++k) {
+        const double from = static_cast<double>(k) * step;
+        if (from >= low + side) break;
         parts(i, k) = std::max(0.0, std::min(low + side, from + step) - std::max(low, from)) / side;
       }
+    }
     return parts;
   };
   const Eigen::Map<const Grid> light(values.data(), cells.y, cells.x);
   return overlaps(1).transpose() * light * overlaps(0);
 }
 
-} // namespace
-
-Lens::Lens(const Layout& layout, const Target& target, Place settings)
-    : layout_(layout), target_(target), settings_(std::move(settings)), domain_(domain_of(layout)),
-      transport_(on_grid(layout, layout.size, {1, 1}, {1}), on_grid(layout, layout.receiver, layout.cells, target)),
-      heights_of_(layout.facets.x + 1, layout.facets.y + 1, layout.facet()), heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)),
-      slopes_(layout.facet_count())
+/// As spread() blurs what falls on cells evenly: 1/8, 3/4, 1/8 along either axis.
+Grid blurred(const Grid& light)
 {
-  make_surface();
+  const auto along_rows = [](const Grid& of) {
+    Grid result = 0.75 * of;
+    const Eigen::Index last = of.cols() - 1;
+    result.rightCols(last) += 0.125 * of.leftCols(last);
+    result.leftCols(last) += 0.125 * of.rightCols(last);
+    result.col(0) += 0.125 * of.col(0);
+    result.col(last) += 0.125 * of.col(last);
+    return result;
+  };
+  return along_rows(along_rows(light).transpose()).transpose();
 }
 
-/// Where the light has to go that leaves at p, on the receiver.
+std::vector<double> flat_powers(const Layout& layout)
+{
+  std::vector<double> powers(layout.facet_count(), 1);
+  for (std::size_t i = 0; i < layout.incoming.size(); ++i) powers[i] = layout.incoming[i].power;
+  return powers;
+}
+
+} // namespace
+
+Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Place settings)
+    : layout_(layout), target_(target), mesh_error_(mesh_error), settings_(std::move(settings)), domain_(domain_of(layout)), fine_(layout),
+      transport_(on_grid(layout, transport_cells(layout), layout.size, layout.facets, flat_powers(layout)),
+                 on_grid(layout, transport_cells(layout), layout.receiver, layout.cells, target)),
+      wanted_(blurred(on_grid(layout, most_cells(layout), layout.receiver, layout.cells, target))),
+      heights_of_(layout.facets.x + 1, layout.facets.y + 1, layout.facet()),
+      flow_of_(static_cast<int>(wanted_.cols()), static_cast<int>(wanted_.rows()), {1, 1}),
+      heights_(Grid::Zero(layout.facets.y + 1, layout.facets.x + 1)), best_heights_(heights_), surface_(layout.size, heights_),
+      slopes_(layout.facet_count())
+{
+  fine_.facets *= parts_of_facet(layout);
+  fine_.free_heights = true; // no wall stands in the light
+  fine_.incoming.clear();
+  for (std::size_t i = 0; i < fine_.facet_count() && !layout.incoming.empty(); ++i) fine_.incoming.push_back(incoming_at(fine_.middle(i)));
+  see();
+}
+
+/// Of light on a point of the surface, by the facet about it.
+Incoming Lens::incoming_at(const glm::dvec2& p, double height) const
+{
+  if (layout_.incoming.empty()) return {};
+  const auto nearest = [&](const glm::dvec2& at) {
+    const glm::ivec2 column_row((at.x + layout_.size.x / 2) / layout_.facet().x, (layout_.size.y / 2 - at.y) / layout_.facet().y);
+    const glm::ivec2 inside = glm::clamp(column_row, glm::ivec2(0), layout_.facets - 1);
+    return index_at(inside.x, inside.y, layout_.facets.x);
+  };
+  const std::size_t facet = nearest(p);
+  Incoming in = layout_.incoming[facet];
+  in.sines += in.spread * (p + slope_inside(in.sines, layout_.n) * height - layout_.middle(facet));
+  return in;
+}
+
+/// Where the transport sends the light that leaves at p, on the receiver.
 glm::dvec2 Lens::goal(const glm::dvec2& p) const
 {
   const glm::dvec2 cell = domain_ / transport_.cells();
@@ -60,70 +124,139 @@ glm::dvec2 Lens::goal(const glm::dvec2& p) const
   return {to.x - domain_.x / 2, domain_.y / 2 - to.y};
 }
 
-/// Of all surfaces the one whose rises along the facets' edges are closest to those that would send the light of the edges' middles where
-/// it has to go, in the sense of least squares.
-void Lens::make_surface()
+/// Where the surface sends the light that leaves at p.
+glm::dvec2 Lens::landing(const glm::dvec2& p, const Surface::At& at) const
 {
-  const double distance = layout_.distances.front(), limit = usable_slope(layout_);
+  return p + facet_slope(at.gradient, layout_.n, incoming_at(p, at.z).sines) * (layout_.distances.front() + at.z);
+}
+
+/// The surface's heights, changed so that it is as steep in the middles of the facets' edges as it has to be to send their light to its
+/// goal, along each edge and in the sense of least squares.
+Grid Lens::bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface::At&)>& goal_of) const
+{
   const glm::dvec2 facet = layout_.facet();
-  const auto rise = [&](const glm::dvec2& p, double height) {
-    glm::dvec2 slope = (goal(p) - p) / std::max(distance + height, 0.01 * distance); // solid() refuses to be so near
-    slope *= std::min(1.0, limit / std::max(glm::length(slope), 1e-300));
-    return facet_gradient(slope, layout_.n);
+  const double distance = layout_.distances.front();
+  const auto lacks = [&](double column, double row) { // by how much the surface is not steep enough
+    const glm::dvec2 p(column * facet.x - layout_.size.x / 2, layout_.size.y / 2 - row * facet.y);
+    const Surface::At at = surface_.at(p);
+    const glm::dvec2 sines = incoming_at(p, at.z).sines, slope = (goal_of(p, at) - p) / std::max(distance + at.z, 0.01 * distance);
+    return facet_gradient(nearest_reachable(slope, layout_.n, sines, layout_.steepest), layout_.n, sines) - at.gradient;
   };
   const Eigen::Index rows = heights_.rows(), columns = heights_.cols();
-  heights_.setZero();
-  const auto corner = [&](double x, double y) { return glm::dvec2(x * facet.x - layout_.size.x / 2, layout_.size.y / 2 - y * facet.y); };
-  for (int round = 0; round < rounds; ++round) {
-    Grid source = Grid::Zero(rows, columns); // minus the divergence of the rises
-    for (Eigen::Index y = 0; y < rows; ++y)
+  Grid across = Grid::Zero(rows, columns), down = across; // of the edges to the right and below
+  for_ranges(static_cast<std::size_t>(rows), 16, [&](std::size_t, const Range& range) {
+    for (auto y = static_cast<Eigen::Index>(range.begin); y < static_cast<Eigen::Index>(range.end); ++y)
       for (Eigen::Index x = 0; x < columns; ++x) {
         const auto u = static_cast<double>(x), v = static_cast<double>(y);
-        if (x + 1 < columns) {
-          const double along = rise(corner(u + 0.5, v), (heights_(y, x) + heights_(y, x + 1)) / 2).x / facet.x;
-          source(y, x) -= along;
-          source(y, x + 1) += along;
-        }
-        if (y + 1 < rows) { // rows go down, y goes up
-          const double along = rise(corner(u, v + 0.5), (heights_(y, x) + heights_(y + 1, x)) / 2).y / facet.y;
-          source(y, x) += along;
-          source(y + 1, x) -= along;
-        }
+        if (x + 1 < columns) across(y, x) = lacks(u + 0.5, v).x / facet.x;
+        if (y + 1 < rows) down(y, x) = -lacks(u, v + 0.5).y / facet.y; // rows go down, y goes up
       }
-    heights_ = heights_of_.solve(source);
-    heights_.array() -= (heights_.minCoeff() + heights_.maxCoeff()) / 2;
-  }
+  });
+  Grid source = -across - down; // minus the divergence
+  source.rightCols(columns - 1) += across.leftCols(columns - 1);
+  source.bottomRows(rows - 1) += down.topRows(rows - 1);
+  Grid heights = heights_ + heights_of_.solve(source);
+  heights.array() -= (heights.minCoeff() + heights.maxCoeff()) / 2;
+  return heights;
+}
 
-  light_.assign(1, std::vector<double>(layout_.cell_count()));
-  const auto columns_of = static_cast<std::size_t>(layout_.facets.x);
+void Lens::set_heights(Grid heights)
+{
+  heights_ = std::move(heights);
+  surface_ = Surface(layout_.size, heights_);
+}
+
+/// Where the corners of the facets' parts send their light, in cells of the finest grid, row by row.
+std::vector<glm::dvec2> Lens::corners_land() const
+{
+  const std::size_t columns = static_cast<std::size_t>(fine_.facets.x) + 1, rows = static_cast<std::size_t>(fine_.facets.y) + 1;
+  const glm::dvec2 cell = domain_ / glm::dvec2(wanted_.cols(), wanted_.rows());
+  std::vector<glm::dvec2> corners(rows * columns);
+  for_ranges(rows, 16, [&](std::size_t, const Range& range) {
+    for (std::size_t i = range.begin * columns; i < range.end * columns; ++i) {
+      const glm::dvec2 p = glm::dvec2(i % columns, i / columns) * fine_.facet() * glm::dvec2(1, -1) + layout_.size * glm::dvec2(-0.5, 0.5);
+      const glm::dvec2 to = landing(p, surface_.at(p));
+      corners[i] = glm::dvec2(to.x + domain_.x / 2, domain_.y / 2 - to.y) / cell;
+    }
+  });
+  return corners;
+}
+
+/// The light of the surface, as that of its facets' parts.
+void Lens::see()
+{
+  const std::size_t columns = static_cast<std::size_t>(fine_.facets.x), rows = static_cast<std::size_t>(fine_.facets.y), blocks = 8;
+  std::vector<std::vector<std::vector<double>>> light(blocks, {std::vector<double>(layout_.cell_count())});
+  sent_by_.resize(fine_.facets.y, fine_.facets.x);
+  const double part = static_cast<double>(layout_.facet_count()) / static_cast<double>(fine_.facet_count());
+  for_blocks(blocks, [&](std::size_t block) {
+    for (std::size_t i = block * rows / blocks * columns; i < (block + 1) * rows / blocks * columns; ++i) {
+      const Surface::At at = surface_.at(fine_.middle(i));
+      const glm::dvec2 slope = facet_slope(at.gradient, layout_.n, incoming_at(fine_.middle(i), at.z).sines);
+      sent_by_.data()[i] = part * facet_power(fine_, i, slope);
+      for_cells(fine_, footprint(fine_, i, slope, 0, at.z),
+                [&](std::size_t cell, double of) { light[block][0][cell] += sent_by_.data()[i] * of; });
+    }
+  });
+  light_ = std::move(light.front());
+  for (std::size_t block = 1; block < blocks; ++block)
+    for (std::size_t c = 0; c < light_.front().size(); ++c) light_.front()[c] += light[block][0][c];
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
-    const auto x = static_cast<Eigen::Index>(i % columns_of), y = static_cast<Eigen::Index>(i / columns_of);
-    const double a = heights_(y, x), b = heights_(y, x + 1), c = heights_(y + 1, x), d = heights_(y + 1, x + 1);
-    slopes_[i] = facet_slope({(b + d - a - c) / (2 * facet.x), (a + b - c - d) / (2 * facet.y)}, layout_.n);
-    add_light(layout_, i, slopes_[i], 1, light_, (a + b + c + d) / 4);
+    const glm::dvec2 p = layout_.middle(i);
+    const Surface::At at = surface_.at(p);
+    slopes_[i] = facet_slope(at.gradient, layout_.n, incoming_at(p, at.z).sines);
   }
+}
+
+/// Light flows from where there is too much of it: along the gradient of the solution of Poisson's equation, as fast as what is there lets
+/// it.
+void Lens::correct()
+{
+  Grid there = spread(sent_by_, corners_land(), wanted_.rows(), wanted_.cols());
+  there *= wanted_.sum() / there.sum();
+  const Grid potential = flow_of_.solve(wanted_ - there);
+  const Spline flow(potential);
+  const Spline amount(Grid((wanted_ + there) / 2));
+  const double least = 0.05 * wanted_.mean();
+  const glm::dvec2 cell = domain_ / glm::dvec2(wanted_.cols(), wanted_.rows()), cells(wanted_.cols(), wanted_.rows());
+  set_heights(bent([&](const glm::dvec2& p, const Surface::At& at) {
+    const glm::dvec2 to = landing(p, at);
+    const glm::dvec2 on_grid = glm::clamp(glm::dvec2(to.x + domain_.x / 2, domain_.y / 2 - to.y) / cell - 0.5, glm::dvec2(0), cells - 1.0);
+    const glm::dvec2 move = flow.at(on_grid).gradient * (share_ / std::max(least, amount.at(on_grid).value));
+    return to + move * cell * glm::dvec2(1, -1);
+  }));
 }
 
 void Lens::advance()
 {
-  transport_.advance();
+  if (moved_ < moves) {
+    transport_.advance();
+    if (++moved_ < moves) return;
+    for (int round = 0; round < rounds; ++round) set_heights(bent([&](const glm::dvec2& p, const Surface::At&) { return goal(p); }));
+  } else
+    correct();
   ++steps_;
-  if (transport_.astray() < best_ * 0.99) {
-    best_ = transport_.astray();
-    best_step_ = steps_;
+  see();
+  const double error = costs().front().rel_l2;
+  stale_ = error < best_ * (1 - worth) ? 0 : stale_ + 1;
+  if (error < best_) {
+    best_ = error;
+    best_heights_ = heights_;
+  } else {
+    share_ /= 2;
+    set_heights(best_heights_);
+    see();
   }
-  make_surface();
 }
+
+double Lens::part() const { return moved_ < moves ? moved_ / static_cast<double>(moves) : 0; }
 
 std::vector<double> Lens::heights() const
 {
   std::vector<double> middles;
-  for (Eigen::Index y = 0; y + 1 < heights_.rows(); ++y)
-    for (Eigen::Index x = 0; x + 1 < heights_.cols(); ++x) middles.push_back(heights_.block<2, 2>(y, x).mean());
+  for (std::size_t i = 0; i < slopes_.size(); ++i) middles.push_back(surface_.at(layout_.middle(i)).z);
   return middles;
 }
-
-std::vector<Cost> Lens::costs() const { return {cost_of(target_, light_.front(), light_sent(layout_, slopes_))}; }
 
 Solid Lens::solid() const
 {
@@ -138,7 +271,10 @@ Solid Lens::solid() const
     throw bad_input(settings_, fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
                     fmt::format("'max_relief_mm' and 'min_thickness_mm' leave {:.4g} mm", 2 * layout_.band),
                     "loosen them, choose a larger thickness_mm or a receiver further away");
-  Solid solid = make_smooth_solid(layout_, {heights_.data(), heights_.data() + heights_.size()});
+  const std::vector<int> parts = mesh_parts(layout_, surface_, mesh_error_);
+  if (const std::uint64_t triangles = count_triangles(layout_, parts); stl_bytes(triangles) > most_stl_bytes)
+    refuse_mesh(settings_, mesh_error_, triangles);
+  Solid solid = make_smooth_solid(layout_, surface_, parts);
   if (const double most = glm::degrees(std::atan(layout_.steepest)); solid.steepest_deg > most)
     throw bad_input(settings_ / "max_slope_deg",
                     fmt::format("is {:.4g} degrees, and the lens is as steep as {:.4g}", most, solid.steepest_deg),
@@ -151,10 +287,18 @@ void Lens::show(job::Snapshot& made) const { made.scalars.push_back({"lens", "as
 void Lens::state(State& state)
 {
   transport_.state(state);
+  state.value(moved_);
   state.value(steps_);
-  state.value(best_step_);
+  state.value(stale_);
+  state.value(share_);
   state.value(best_);
-  if (state.is_read()) make_surface();
+  for (Grid* const grid : {&heights_, &best_heights_}) state.items(std::span(grid->data(), static_cast<std::size_t>(grid->size())));
+  if (!state.is_read()) return;
+  constexpr double farthest = 1e7; // mm
+  if (!(heights_.array().abs() < farthest).all() || !(best_heights_.array().abs() < farthest).all())
+    throw bad_input("checkpoint.bin", "is of another run");
+  set_heights(heights_);
+  see();
 }
 
 } // namespace nephroid::inverse

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// One picture by a smooth surface: where the light has to go, then heights whose slopes send it there.
+// One picture by a smooth surface: where the light has to go, heights whose slopes send it there, then what these lack put right.
 #pragma once
 #include "base/bytes.h"
 #include "base/place.h"
+#include "inverse/facets/surface.h"
 #include "inverse/method.h"
 #include "inverse/poisson.h"
+
+#include <functional>
 
 namespace nephroid::inverse {
 
@@ -45,52 +48,70 @@ private:
   double astray_ = 1;
 };
 
-/// Light of `from` where x -> x - gradient(potential)(x) brings it. cell: side of a cell.
-Grid pushed(const Grid& from, const Grid& potential, double cell);
+/// Light of quads whose corners land at these places, in cells of the result, which spreads each sample over the four cells about it.
+/// corners: row by row, one more across and down than `light`. Light beside the result goes to its rim.
+Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::Index rows, Eigen::Index columns);
 
 /// min over y of |x - y|^2 / 2 - f(y), over the middles of cells.
 Grid conjugate(const Grid& f, double cell);
 
-/// For one receiver and light along -z. Steps are those of Transport; the surface is made after each.
+/// For one receiver. The first step is the optimal transport and the surface that follows from it. Each further one corrects the surface
+/// by the light that it sends: where there is too much, light flows to where it lacks, as a solution of Poisson's equation says.
 class Lens final : public Method {
 public:
   /// The layout and the target outlive it. settings: where they stand, for what solid() refuses.
-  Lens(const Layout& layout, const Target& target, Place settings);
+  Lens(const Layout& layout, const Target& target, double mesh_error, Place settings);
 
   void advance() override;
-  /// Ten steps brought no less light astray.
-  bool finished() const override { return steps_ - best_step_ >= 10; }
+  bool finished() const override { return stale_ >= most_stale; }
   std::int64_t steps() const override { return steps_; }
-  std::int64_t most() const override { return 100; }
-  double part() const override { return 0; }
+  std::int64_t most() const override { return 60; }
+  double part() const override;
   std::uint64_t tried() const override { return static_cast<std::uint64_t>(steps_) * layout_.facet_count(); }
   job::Units units() const override { return {.step = "step", .steps = "steps", .work = "facet", .works = "facets"}; }
 
   const std::vector<glm::dvec2>& slopes() const override { return slopes_; }
   std::vector<double> heights() const override;
   const std::vector<double>& light(std::size_t) const override { return light_.front(); }
-  std::vector<Cost> costs() const override;
+  std::vector<Cost> costs() const override { return {cost_of(target_, light_.front(), sent_)}; }
   Solid solid() const override;
   void show(job::Snapshot& made) const override;
 
   void state(State& state) override;
 
 private:
-  void make_surface();
+  /// Corrections in a row that gain too little, after which no more follow.
+  static constexpr std::int64_t most_stale = 2;
+
+  void correct();
   glm::dvec2 goal(const glm::dvec2& p) const;
+  Incoming incoming_at(const glm::dvec2& p, double height = 0) const;
+  glm::dvec2 landing(const glm::dvec2& p, const Surface::At& at) const;
+  Grid bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface::At&)>& goal) const;
+  void set_heights(Grid heights);
+  void see();
+  std::vector<glm::dvec2> corners_land() const;
 
   const Layout& layout_;
   const Target& target_;
+  double mesh_error_;
   Place settings_;
   glm::dvec2 domain_; ///< size of the grid in millimetres, centred as the object and the receiver are
+  Layout fine_;       ///< the same with facets in parts, whose light is that of the surface
   Transport transport_;
-  Poisson heights_of_;
+  Grid wanted_; ///< on the finest grid
+  Poisson heights_of_, flow_of_;
   // The state, and what follows from it.
-  std::int64_t steps_ = 0, best_step_ = 0;
-  double best_ = 1;
-  Grid heights_; ///< of the facets' corners, millimetres
+  int moved_ = 0; ///< steps of the transport
+  std::int64_t steps_ = 0, stale_ = 0;
+  double share_ = 1;            ///< of a correction that is carried out
+  double best_ = 1;             ///< the least error of a surface
+  Grid heights_, best_heights_; ///< of the facets' corners, millimetres
+  Surface surface_;
   std::vector<glm::dvec2> slopes_;
-  std::vector<std::vector<double>> light_; ///< of the one receiver
+  std::vector<std::vector<double>> light_; ///< of the one receiver, in facets
+  Grid sent_by_;                           ///< the same of each part of a facet
+  double sent_ = 0;
 };
 
 } // namespace nephroid::inverse

@@ -68,8 +68,8 @@ void deposit(Grid& into, const glm::dvec2& p, double light)
 
 std::span<double> values(Grid& grid) { return {grid.data(), static_cast<std::size_t>(grid.size())}; }
 
-/// Samples along a side of a cell: two for each cell that it is stretched over.
-constexpr int most_samples = 16;
+/// Samples along a side: two for each cell that it is stretched over.
+constexpr double most_samples = 32;
 
 } // namespace
 
@@ -90,30 +90,27 @@ Grid conjugate(const Grid& f, double cell)
   return result.transpose();
 }
 
-Grid pushed(const Grid& from, const Grid& potential, double cell)
+Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::Index rows, Eigen::Index columns)
 {
-  const auto rows = static_cast<int>(from.rows()), columns = static_cast<int>(from.cols());
-  constexpr int rows_a_block = 16;
-  const auto blocks = static_cast<std::size_t>((rows + rows_a_block - 1) / rows_a_block);
-  std::vector<Grid> parts(blocks);
-  for_blocks(blocks, [&](std::size_t block) {
+  constexpr Eigen::Index most_blocks = 8; // each has a grid of its own
+  const Eigen::Index blocks = std::min(most_blocks, light.rows()), across = light.cols() + 1;
+  std::vector<Grid> parts(static_cast<std::size_t>(blocks));
+  for_blocks(parts.size(), [&](std::size_t block) {
     Grid& into = parts[block];
     into = Grid::Zero(rows, columns);
-    const int first = static_cast<int>(block) * rows_a_block;
-    for (int y = first; y < std::min(rows, first + rows_a_block); ++y)
-      for (int x = 0; x < columns; ++x) {
-        if (from(y, x) == 0) continue;
-        glm::dvec2 way[2][2]; // of the cell's corners, in cells
-        for (int v = 0; v < 2; ++v)
-          for (int u = 0; u < 2; ++u) way[v][u] = gradient_at(potential, x + u, y + v, cell) / cell;
-        const glm::dvec2 wide = glm::abs(way[0][1] - way[0][0]) + glm::abs(way[1][0] - way[0][0]) + glm::abs(way[1][1] - way[0][0]);
-        const int samples = std::clamp(static_cast<int>(std::ceil(2 * (1 + std::max(wide.x, wide.y)))), 2, most_samples);
-        const double light = from(y, x) / (samples * samples);
+    const auto i = static_cast<Eigen::Index>(block);
+    for (Eigen::Index y = i * light.rows() / blocks; y < (i + 1) * light.rows() / blocks; ++y)
+      for (Eigen::Index x = 0; x + 1 < across; ++x) {
+        if (light(y, x) == 0) continue;
+        const glm::dvec2* const upper = corners.data() + y * across + x;
+        const glm::dvec2* const lower = upper + across;
+        const glm::dvec2 wide = glm::max(glm::abs(upper[1] - upper[0]) + glm::abs(lower[0] - upper[0]),
+                                         glm::abs(lower[1] - lower[0]) + glm::abs(lower[1] - upper[1]));
+        const int samples = static_cast<int>(std::clamp(std::ceil(2 * std::max(wide.x, wide.y)), 1.0, most_samples));
+        const double part = light(y, x) / (samples * samples);
         for (int k = 0; k < samples * samples; ++k) {
-          const int column = k % samples, row = k / samples;
-          const glm::dvec2 at{(column + 0.5) / samples, (row + 0.5) / samples};
-          const glm::dvec2 goes = glm::mix(glm::mix(way[0][0], way[0][1], at.x), glm::mix(way[1][0], way[1][1], at.x), at.y);
-          deposit(into, glm::dvec2(x, y) + at - goes, light);
+          const double u = (k % samples + 0.5) / samples, v = (k / samples + 0.5) / samples; // NOLINT(bugprone-integer-division)
+          deposit(into, glm::mix(glm::mix(upper[0], upper[1], u), glm::mix(lower[0], lower[1], u), v), part);
         }
       }
   });
@@ -121,6 +118,21 @@ Grid pushed(const Grid& from, const Grid& potential, double cell)
   for (const Grid& part : parts) sum += part;
   return sum;
 }
+
+namespace {
+
+/// Light of `from` where x -> x - gradient(potential)(x) brings it. cell: side of a cell.
+Grid pushed(const Grid& from, const Grid& potential, double cell)
+{
+  const auto rows = static_cast<int>(from.rows()), columns = static_cast<int>(from.cols());
+  std::vector<glm::dvec2> corners;
+  corners.reserve(static_cast<std::size_t>((rows + 1) * (columns + 1)));
+  for (int y = 0; y <= rows; ++y)
+    for (int x = 0; x <= columns; ++x) corners.push_back(glm::dvec2(x, y) - gradient_at(potential, x, y, cell) / cell);
+  return spread(from, corners, rows, columns);
+}
+
+} // namespace
 
 Transport::Transport(Grid from, Grid to)
     : from_(std::move(from)), to_(std::move(to)), cell_(1.0 / static_cast<double>(std::max(from_.rows(), from_.cols()))),

@@ -117,73 +117,24 @@ Target draw_words(const Picture& picture, const Layout& layout, const Place& whe
   });
 }
 
-/// A cell's mean over the pixels that it covers, with their parts. Dark where the file does not reach.
-Target fit(const Grey& grey, const Layout& layout)
-{
-  const double pixel = std::min(layout.receiver.x / grey.width, layout.receiver.y / grey.height); // millimetres
-  const auto overlap = [](double low, double high, int i) { return std::max(0.0, std::min(high, i + 1.0) - std::max(low, double(i))); };
-  Target target;
-  const glm::dvec2 cell = layout.cell() / pixel;
-  const glm::dvec2 corner = (glm::dvec2(grey.width, grey.height) - layout.receiver / pixel) / 2.0;
-  for (int y = 0; y < layout.cells.y; ++y)
-    for (int x = 0; x < layout.cells.x; ++x) {
-      const glm::dvec2 low = corner + glm::dvec2(x, y) * cell, high = low + cell;
-      double sum = 0;
-      for (int v = std::max(0, static_cast<int>(low.y)); v < grey.height && v < high.y; ++v)
-        for (int u = std::max(0, static_cast<int>(low.x)); u < grey.width && u < high.x; ++u)
-          sum += overlap(low.x, high.x, u) * overlap(low.y, high.y, v) * grey.values[index_at(u, v, grey.width)];
-      target.push_back(sum / (cell.x * cell.y));
-    }
-  return target;
-}
-
 Target brightness_of(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where)
 {
   if (picture.type == Picture::Type::text) return draw_words(picture, layout, where);
   if (picture.type == Picture::Type::qr) return qr_cells(picture.text, layout.cells, where / "text");
   if (picture.type != Picture::Type::file)
     return draw(layout, [&, half = half_receiver(layout)](const glm::dvec2& p) { return brightness(picture, p, half); });
-  Grey grey = read_grey(finder.find(picture.file, where));
-  for (double& value : grey.values) value = std::pow(value, picture.tone);
-  return fit(grey, layout);
+  return photograph(finder.find(picture.file, where), picture, layout);
 }
 
 } // namespace
-
-Grey read_grey(const std::filesystem::path& file)
-{
-  const image::Image picture = image::read_image(file);
-  const image::Rgb rgb = image::rgb_of(picture, file.string());
-  const auto alpha = std::find(picture.channels.begin(), picture.channels.end(), "A");
-  const bool transparent = alpha != picture.channels.end() && picture.integers; // colours of floats are multiplied by it already
-  const auto opacity = [&](std::size_t pixel) {
-    return transparent ? picture.data[pixel * picture.channels.size() + static_cast<std::size_t>(alpha - picture.channels.begin())] : 1.0f;
-  };
-  Grey grey{picture.width, picture.height, {}};
-  for (std::size_t i = 0; i < rgb.values.size(); i += 3) {
-    const auto linear = [&](std::size_t channel) {
-      const double value = rgb.values[i + channel];
-      return picture.integers ? image::decoded_srgb(value) : value;
-    };
-    const double y = (0.2126 * linear(0) + 0.7152 * linear(1) + 0.0722 * linear(2)) * opacity(i / 3);
-    if (!std::isfinite(y) || y < 0)
-      throw bad_input(file.string(), "has a pixel that is negative or not a number", "expected a picture of light");
-    grey.values.push_back(y);
-  }
-  const auto [low, high] = std::minmax_element(grey.values.begin(), grey.values.end());
-  if (*high == 0) throw bad_input(file.string(), "is black all over", "expected a picture with some light in it");
-  if (*low == *high)
-    throw bad_input(file.string(), "is one grey all over", "expected a picture with an outline", "for a disc of light use a drawing");
-  const double most = *high;
-  for (double& value : grey.values) value /= most;
-  return grey;
-}
 
 Target make_target(const Picture& picture, const Layout& layout, const FileFinder& finder, const Place& where)
 {
   Target target = brightness_of(picture, layout, finder, where);
   if (std::all_of(target.begin(), target.end(), [](double t) { return t == 0; }))
-    throw bad_input(where, "leaves every cell of the receiver dark", "expected a drawing that lies on the receiver");
+    throw bad_input(where, "leaves every cell of the receiver dark",
+                    picture.type == Picture::Type::file ? "expected 'levels' that some of the file is above"
+                                                        : "expected a drawing that lies on the receiver");
   for (double& t : target) t = picture.background + (1 - picture.background) * t;
   const double sum = std::accumulate(target.begin(), target.end(), 0.0);
   for (double& t : target) t /= sum;

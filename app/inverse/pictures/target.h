@@ -7,15 +7,10 @@
 
 namespace nephroid::inverse {
 
-/// A grey picture of pixels.
-struct Grey {
-  int width = 0, height = 0;
-  std::vector<double> values; ///< 0..1, row 0 at the top
-};
-
-/// Luminance of linear sRGB over its maximum. Throws bad_input naming the file where it cannot be read, has a value that is no light, or
-/// is one grey all over.
-Grey read_grey(const std::filesystem::path& file);
+/// A file's brightness in each cell, 0..1: the luminance of linear sRGB over its maximum, with the picture's tone, then the cell's mean
+/// over the pixels that it covers, with their parts; then levels and vignette. Dark where the file does not reach. Throws bad_input naming
+/// the file where it cannot be read, has a value that is no light, or is one grey all over.
+Target photograph(const std::filesystem::path& file, const Picture& picture, const Layout& layout);
 
 /// QR codes (ISO/IEC 18004) in whole cells. Brightness 0 or 1 of each cell, row 0 at the top: light modules and the quiet zone of 4 modules
 /// around them are lit, what is beside it dark. The code has the lowest version that holds the text, and the strongest correction that this

@@ -69,6 +69,8 @@ void AnnealingPanel::follow(const Context& context)
   const job::Picture* slopes = pictures_.find("slopes");
   beam_.reset();
   if (facet_ && layout_ && slopes) beam_ = facet_beam(*slopes, *layout_, *facet_);
+  auto lines = beam_ ? lines_of(*beam_, *layout_) : std::vector<std::vector<preset::Vec3>>();
+  if (lines != context.chosen.lines) context.push(command::ShowLines{std::move(lines)});
 }
 
 void AnnealingPanel::draw_toolbar(const Context& context)
@@ -89,6 +91,9 @@ void AnnealingPanel::draw_histories()
     for (const job::Curve& curve : snapshot_->curves)
       if (curve.columns.front() == snapshot_->progress.units.step) // others, as the frames' distances, are not of the search
         histories_.push_back(history_lines(curve, look_));
+  for (HistoryLines& lines : histories_) // what the judge says stands after the last step
+    if (const double judged = job::scalar(*snapshot_, "judged", lines.name); std::isfinite(judged) && !lines.lines.front().x.empty())
+      lines.lines.push_back({"judged", {lines.lines.front().x.back()}, {judged}});
   const float height = std::max(8 * em(), 0.19f * ImGui::GetWindowHeight());
   if (histories_.empty()) {
     draw_hint(colour::quiet_text, ImGui::GetCursorScreenPos(), {ImGui::GetContentRegionAvail().x, height}, "The search has not begun");
@@ -125,9 +130,9 @@ void AnnealingPanel::draw_receivers(const Context& context)
   const float column = std::max(std::floor(free / static_cast<float>(count)) - gap, least);
   const glm::dvec2 shape = layout_ ? layout_->receiver : glm::dvec2(1);
   const ImVec2 size = fitted(shape, std::min(column, std::max(least, 0.1f * ImGui::GetWindowHeight())));
-  const std::array<const char*, 3> kinds{"target", "receiver", "difference"};
+  const std::array<const char*, 4> kinds{"target", "best", "receiver", "difference"};
   const float line = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().CellPadding.y, row = size.y + 2 * ImGui::GetStyle().CellPadding.y;
-  const float height = 2 * line + row * (beam_ ? 4 : 3) + ImGui::GetTextLineHeight() + ImGui::GetStyle().ScrollbarSize + gap;
+  const float height = 2 * line + row * (beam_ ? 5 : 4) + ImGui::GetTextLineHeight() + ImGui::GetStyle().ScrollbarSize + gap;
   if (!ImGui::BeginTable("receivers", static_cast<int>(count), ImGuiTableFlags_ScrollX | ImGuiTableFlags_SizingFixedSame, {0, height}))
     return;
   for (std::size_t j = 0; j < count; ++j) ImGui::TableSetupColumn(fmt::format("{}", j).c_str(), ImGuiTableColumnFlags_WidthFixed, column);
@@ -190,6 +195,8 @@ void AnnealingPanel::draw_receiver_picture(const std::string& kind, std::size_t 
   };
   if (kind == "target")
     ImGui::SetItemTooltip("What receiver %zu shall show", receiver + 1);
+  else if (kind == "best")
+    ImGui::SetItemTooltip("The closest that facets of this size could cast on receiver %zu, were it the only one", receiver + 1);
   else if (kind == "receiver")
     tooltip(fmt::format("What receiver {} shows, {}\ncost {}, relative {}", receiver + 1, judged ? "judged" : "believed", figure("cost"),
                         figure("rel_l2")));

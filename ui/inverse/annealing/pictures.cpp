@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/inverse/annealing/pictures.h"
 
+#include "inverse/bending.h"
 #include "ui/state/tone.h"
 #include "ui/widgets/theme.h"
 
@@ -77,6 +78,26 @@ std::optional<BeamBox> box_of(const inverse::Footprint& print)
 {
   if (print.cells.empty()) return std::nullopt;
   return BeamBox{{print.x0, print.y0}, {print.x0 + print.columns, print.y0 + print.rows}};
+}
+
+std::vector<std::vector<preset::Vec3>> lines_of(const FacetBeam& beam, const inverse::Layout& layout)
+{
+  const std::size_t facet = inverse::index_at(beam.facet.x, beam.facet.y, layout.facets.x);
+  const glm::dvec2 at = layout.middle(facet), inside = inverse::slope_inside(layout.sines_on(facet), layout.n);
+  const glm::dvec2 front = at - inside * (layout.thickness - beam.height), end = at + beam.slope * (layout.distances.back() + beam.height);
+  std::vector<std::vector<preset::Vec3>> lines{
+      {{front.x, front.y, layout.thickness}, {at.x, at.y, beam.height}, {end.x, end.y, -layout.distances.back()}}};
+  for (std::size_t j = 0; j < beam.prints.size(); ++j) {
+    const auto box = box_of(beam.prints[j]);
+    if (!box) continue;
+    const auto corner = [&](double x, double y) {
+      const glm::dvec2 p = glm::dvec2(x, -y) * layout.cell() + glm::dvec2(-layout.receiver.x, layout.receiver.y) / 2.0;
+      return preset::Vec3{p.x, p.y, -layout.distances[j]};
+    };
+    const glm::dvec2 &low = box->low, &high = box->high;
+    lines.push_back({corner(low.x, low.y), corner(high.x, low.y), corner(high.x, high.y), corner(low.x, high.y), corner(low.x, low.y)});
+  }
+  return lines;
 }
 
 double part_on(const inverse::Footprint& print) { return std::accumulate(print.cells.begin(), print.cells.end(), 0.0); }

@@ -48,6 +48,10 @@ std::optional<BeamBox> box_of(const inverse::Footprint& print);
 /// The part of the beam that is on the receiver.
 double part_on(const inverse::Footprint& print);
 
+/// The beam in the object's own coordinates, as lines: from the front through the facet to the last receiver, and the box of cells that it
+/// reaches on each.
+std::vector<std::vector<preset::Vec3>> lines_of(const FacetBeam& beam, const inverse::Layout& layout);
+
 /// A frame about the beam on a receiver's picture of so many cells, which lies from corner to corner; large enough to be found.
 void draw_beam_frame(const inverse::Footprint& print, const glm::ivec2& cells, const ImVec2& low, const ImVec2& high);
 /// The cells about the beam, large, from corner to corner: how bright the picture is there, and the parts of the beam over it.

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid pictures`: what the receivers of a preset of engine 3 shall show, and how close to that an object comes at best. Designs
+// nothing.
+#include "cli/verb.h"
+#include "image/image.h"
+#include "inverse/assign/cost.h"
+#include "inverse/engine.h"
+#include "inverse/sheet.h"
+#include "preset/origins.h"
+#include "preset/read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace nephroid::cli {
+namespace {
+
+using namespace inverse;
+
+struct PicturesOptions {
+  std::string preset;
+  std::vector<std::string> overrides;
+  std::filesystem::path picture;
+};
+
+void show_pictures(const PicturesOptions& options)
+{
+  const preset::Preset preset = preset::read_preset(options.preset, options.overrides);
+  const InversePlan plan = preset::at_origins(preset, [&] {
+    if (engine::engine_of(preset).settings != inverse::engine.settings)
+      throw bad_input(Place(preset.source, "/engine"),
+                      fmt::format("is '{}', which casts no pictures", engine::name_of(engine::engine_of(preset))), "expected 'inverse'");
+    return make_plan(preset);
+  });
+  std::vector<std::vector<Captioned>> columns;
+  for (std::size_t j = 0; j < plan.targets.size(); ++j) {
+    const Target &target = plan.targets[j], &best = plan.best[j];
+    const double most = *std::max_element(target.begin(), target.end()), off = cost_of(target, best, 1).rel_l2;
+    const auto wanted = grey_picture(target, 1 / most, plan.layout.cells), at_best = grey_picture(best, 1 / most, plan.layout.cells);
+    columns.push_back({{wanted, fmt::format("wanted at {} mm", plan.layout.distances[j])},
+                       {at_best, fmt::format("at best: {:.3f} off", off)},
+                       {difference_picture(*wanted, *at_best), "red: too much, blue: too little"}});
+    fmt::print("picture {} at {} mm: at best {:.3f} off (rel_l2), brightest {:.1f} times an even picture\n", j + 1,
+               plan.layout.distances[j], off, most * static_cast<double>(target.size()));
+  }
+  for (const std::string& note : plan.notes) fmt::print("note: {}\n", note);
+  if (options.picture.empty()) return;
+  const auto [width, height] = preset.scene.camera.resolution;
+  image::write_png(options.picture, width, height, sheet(columns, width, height)->rgb);
+}
+
+} // namespace
+
+void add_pictures(CLI::App& program, Session&)
+{
+  const auto options = std::make_shared<PicturesOptions>();
+  Verb verb(program, "pictures", "What an object of the engine 'inverse' shall cast, and how close it can come at best",
+            {{"nephroid pictures inverse/faces -o faces.png", "before a run: wanted, at best, and the difference"}});
+  verb.option("PRESET", options->preset, {.says = "A preset file or the name of a shipped preset", .required = true});
+  verb.overrides(options->overrides);
+  verb.option("-o,--output", options->picture, {.type = "FILE", .says = "Write a PNG of the pictures"});
+  verb.work([options] { show_pictures(*options); });
+}
+
+} // namespace nephroid::cli
