@@ -48,10 +48,10 @@ std::string print_page(const Layout& layout, const std::vector<std::shared_ptr<c
   constexpr const char *solid = "stroke=\"black\" stroke-width=\"0.2\"",
                        *dashed = "stroke=\"red\" stroke-width=\"0.2\" stroke-dasharray=\"2 2\"";
   const glm::dvec2 most = glm::max(layout.size, layout.receiver);
-  const double block = most.y + 3 * text_line, width = std::max(most.x, 90.0) + 2 * margin,
+  const double block = most.y + 3 * text_line, width = std::max(most.x, 115.0) + 2 * margin,
                height = layout.size.y + 5 * text_line + static_cast<double>(cast.size()) * block + 2 * margin;
   std::string page = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}mm\" height=\"{1:.6g}mm\" "
-                                 "viewBox=\"0 0 {0:.6g} {1:.6g}\" font-family=\"sans-serif\" font-size=\"3.5\">\n"
+                                 "viewBox=\"0 0 {0:.6g} {1:.6g}\" font-family=\"sans-serif\" font-size=\"3.5\" stroke=\"none\">\n"
                                  "<rect width=\"{0:.6g}\" height=\"{1:.6g}\" fill=\"white\"/>\n",
                                  width, height);
   double y = margin;

@@ -4,6 +4,7 @@
 #include "inverse/assign/footprint.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace nephroid::inverse {
