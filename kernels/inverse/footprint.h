@@ -227,6 +227,17 @@ static inline Footprint footprint(const DeviceLayout* layout, const Facet* facet
   return print;
 }
 
+// How far a footprint reaches from its middle, in cells.
+static inline float2 reach_of(const Footprint* print)
+{
+  const float2 reach = (float2)(print->x.reach, print->y.reach);
+#if NEPHROID_SPREAD
+  return reach + fmax(fabs(print->low), fabs(print->high));
+#else
+  return reach;
+#endif
+}
+
 // The cells that a footprint touches: x and y of the first, and behind the last.
 static inline int4 cells_of(const DeviceLayout* layout, const Footprint* print)
 {

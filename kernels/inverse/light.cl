@@ -2,6 +2,7 @@
 // The light of all facets on every receiver, what lacks there, and how the weighted squares change with each slope.
 #include "kernels/inverse/light.h"
 #include "kernels/tracing/film.h"
+#include "kernels/tracing/registers.h"
 
 // light: [receiver][cell], to which every facet adds.
 __kernel void add_light(DeviceLayout own_layout, __global const DeviceReceiver* receivers, __global const DeviceIncoming* incoming,
@@ -26,17 +27,20 @@ __kernel void find_lack(DeviceLayout own_layout, __global const DeviceReceiver* 
   if (item < cells * (uint)own_layout.receivers) lack[item] = lack_of(light[item], wanted[item], receivers[item / cells].weight);
 }
 
-// Over which the gradient is a difference, in cells: as little as single precision tells apart well.
+// Over which the gradient is a difference, in cells of the last receiver: as little as single precision tells apart well.
 #define DIFFERENCE 0.02f
 
-static inline float along_lack(const DeviceLayout* layout, const Facet* facet, float2 slope, int receiver, float distance,
+// A facet's light times what lacks where it falls.
+static inline float along_lack(const DeviceLayout* layout, const Facet* facet, float2 slope, global const DeviceReceiver* receivers,
                                global const float* lack)
 {
   const Beams beams = beams_of(layout, facet, slope);
-  const Footprint print = footprint(layout, facet, &beams, distance);
   float sum = 0.0f;
-  Tile tile;
-  FOR_CELLS(layout, print, tile) sum += PART_ON(print, tile, x, y) * lack[cell_at(layout, receiver, x, y)];
+  for (int j = 0; j < layout->receivers; ++j) {
+    const Footprint print = footprint(layout, facet, &beams, receivers[j].distance);
+    Tile tile;
+    FOR_CELLS(layout, print, tile) sum += PART_ON(print, tile, x, y) * lack[cell_at(layout, j, x, y)];
+  }
   return beams.power * sum;
 }
 
@@ -49,13 +53,12 @@ __kernel void find_gradient(DeviceLayout own_layout, __global const DeviceReceiv
   if (index >= (uint)(own_layout.columns * own_layout.rows)) return;
   const Facet facet = facet_at(&own_layout, incoming, heights, index);
   const float2 slope = slopes[index];
-  float2 sum = (float2)(0.0f);
-  for (int j = 0; j < own_layout.receivers; ++j) {
-    const float distance = receivers[j].distance;
-    const float2 h = DIFFERENCE * (float2)(own_layout.cell_x, own_layout.cell_y) / distance;
-    const float2 x = (float2)(h.x, 0.0f), y = (float2)(0.0f, h.y);
-    sum.x += (along_lack(&own_layout, &facet, slope + x, j, distance, lack) - along_lack(&own_layout, &facet, slope - x, j, distance, lack)) / (2.0f * h.x);
-    sum.y += (along_lack(&own_layout, &facet, slope + y, j, distance, lack) - along_lack(&own_layout, &facet, slope - y, j, distance, lack)) / (2.0f * h.y);
+  const float2 h = DIFFERENCE * (float2)(own_layout.cell_x, own_layout.cell_y) / receivers[own_layout.receivers - 1].distance;
+  float change[4];
+  ROLLED
+  for (int side = 0; side < 4; ++side) {
+    const float2 moved = slope + (side & 1 ? -h : h) * (side < 2 ? (float2)(1.0f, 0.0f) : (float2)(0.0f, 1.0f));
+    change[side] = along_lack(&own_layout, &facet, moved, receivers, lack);
   }
-  gradient[index] = sum;
+  gradient[index] = (float2)(change[0] - change[1], change[2] - change[3]) / (2.0f * h);
 }

@@ -43,9 +43,16 @@ static inline float score(const Search* s, float2 slope)
 #endif
   for (int j = 0; j < layout->receivers; ++j) {
     const float distance = s->receivers[j].distance, weight = s->receivers[j].weight;
-    const Footprint print = footprint(layout, &s->facet, &beams, distance), own = footprint(layout, &s->facet, &s->now, distance);
-    const int4 a = cells_of(layout, &print), b = cells_of(layout, &own);
-    const bool near = a.x < b.z && b.x < a.z && a.y < b.w && b.y < a.w;
+    const Footprint print = footprint(layout, &s->facet, &beams, distance);
+    const float2 away = fabs(slope - s->now.slope) * (distance + s->facet.height) / (float2)(layout->cell_x, layout->cell_y);
+    const float2 reach = reach_of(&print);
+    bool near = away.x < 4.0f * reach.x + 4.0f && away.y < 4.0f * reach.y + 4.0f; // for sure, or it counts little
+    Footprint own;
+    if (near) {
+      own = footprint(layout, &s->facet, &s->now, distance);
+      const int4 a = cells_of(layout, &print), b = cells_of(layout, &own);
+      near = a.x < b.z && b.x < a.z && a.y < b.w && b.y < a.w;
+    }
     Tile tile, own_tile;
     FOR_CELLS(layout, print, tile) {
       if (near && x == at.x && y == at.y) fill_tile(layout, &own, at.xy, own_tile);

@@ -121,6 +121,14 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
   return incoming;
 }
 
+compute::Defines facet_defines(const Layout& layout)
+{
+  const bool spreads = layout.sun_radius > 0 || layout.scatter > 0 || !layout.indices.empty();
+  return {{"NEPHROID_INCOMING", layout.incoming.empty() ? "0" : "1"},
+          {"NEPHROID_SPREAD", spreads ? "1" : "0"},
+          {"NEPHROID_SMOOTHS", layout.smoothing > 0 ? "1" : "0"}};
+}
+
 DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets,
                            std::span<const double> weights)
     : context_(context), layout_(device_layout(layout)), facets_(layout.facet_count()), cells_(layout.cell_count() * targets.size()),
@@ -133,10 +141,7 @@ DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout
       light_(context, "light on the receivers", cells_), order_(context, "order of the facets", facets_),
       claims_(context, "claims", cells_ + facets_), done_(context, "facets that have looked", most_in_a_batch)
 {
-  const bool smooths = layout.smoothing > 0;
-  const compute::Defines defines{{"NEPHROID_INCOMING", layout.incoming.empty() ? "0" : "1"},
-                                 {"NEPHROID_SPREAD", layout.sun_radius > 0 || layout.scatter > 0 || !layout.indices.empty() ? "1" : "0"},
-                                 {"NEPHROID_SMOOTHS", smooths ? "1" : "0"}};
+  const compute::Defines defines = facet_defines(layout);
   const compute::Program light(context, "inverse/light.cl", defines), search(context, "inverse/search.cl", defines);
   add_light_ = light.kernel("add_light");
   find_lack_ = light.kernel("find_lack");

@@ -19,6 +19,9 @@ shared::DeviceLayout device_layout(const Layout& layout);
 
 std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout);
 
+/// What kernels leave out.
+compute::Defines facet_defines(const Layout& layout);
+
 class DeviceFacets {
 public:
   /// At most so many facets look for slopes at once: a claim has 12 bits for them (search.cl).
