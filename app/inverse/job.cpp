@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run of engine 3: slopes, then the solid, then its judgement. All on the host.
+// A run of engine 3: slopes, then the solid, then its judgement.
 #include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
 #include "inverse/bending.h"
@@ -30,7 +30,7 @@ constexpr double step_seconds = 0.025;
 /// Of a run's work that the judge is, for its progress only.
 constexpr double judge_part = 0.1;
 
-/// What the object is snapshot of, in words.
+/// What the object is made of, in words.
 std::string material_of(const Settings& s, double n)
 {
   const std::string name = s.index.type == preset::Dispersion::Type::file ? s.index.file + ", " : "";
@@ -366,7 +366,10 @@ private:
     if (tolerances_) add_text("tolerance.csv", tolerance_csv(judge_->costs(targets_), tolerances_->rows()));
     std::vector<std::shared_ptr<const job::Picture>> cast;
     for (std::size_t j = 0; j < targets_.size(); ++j) cast.push_back(received_picture(light(j), brightest(j), layout_));
-    add_text("print.svg", print_page(layout_, cast, preset_.name.empty() ? "The object" : preset_.name));
+    add("print.svg", [cast, name = preset_.name.empty() ? "The object" : preset_.name](const Layout& of, const Solid&, ByteSink& to) {
+      const std::string page = print_page(of, cast, name);
+      to.write(std::as_bytes(std::span(page)));
+    });
   }
 
   /// Where the stop counts from: the run's begin, or the newest preset that it took on.

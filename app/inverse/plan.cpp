@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run of engine 3 does: method, constraints and blurs, and the memory of the host.
+// What a run of engine 3 does: method, constraints and blurs, and its memory.
 #include "base/counted.h"
 #include "inverse/assign/assignment.h"
 #include "inverse/bending.h"

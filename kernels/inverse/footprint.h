@@ -13,6 +13,9 @@
 #define NEPHROID_SPREAD 1
 #endif
 
+// A function of its own: its registers are free again behind it, and all who ask it for a footprint get the same bits.
+#define SEPARATE __attribute__((noinline))
+
 #include "kernels/inverse/bending.h"
 #include "kernels/inverse/facet_types.h"
 
@@ -56,13 +59,13 @@ typedef struct {
 #endif
 } Footprint;
 
-static inline float2 middle_of_facet(const DeviceLayout* layout, uint facet)
+static inline float2 middle_of_facet(global const DeviceLayout* layout, uint facet)
 {
   const float column = (float)(facet % (uint)layout->columns), row = (float)(facet / (uint)layout->columns);
   return (float2)((column + 0.5f) * layout->facet_x - 0.5f * layout->size_x, 0.5f * layout->size_y - (row + 0.5f) * layout->facet_y);
 }
 
-static inline float2 in_cells(const DeviceLayout* layout, float2 p)
+static inline float2 in_cells(global const DeviceLayout* layout, float2 p)
 {
   return (float2)((p.x + 0.5f * layout->receiver_x) / layout->cell_x, (0.5f * layout->receiver_y - p.y) / layout->cell_y);
 }
@@ -76,7 +79,7 @@ typedef struct {
   global const DeviceIncoming* all; // light on all facets
 } Facet;
 
-static inline Facet facet_at(const DeviceLayout* layout, global const DeviceIncoming* incoming, global const float* heights, uint index)
+static inline Facet facet_at(global const DeviceLayout* layout, global const DeviceIncoming* incoming, global const float* heights, uint index)
 {
   Facet facet = {(int)(index % (uint)layout->columns), (int)(index / (uint)layout->columns), middle_of_facet(layout, index),
                  (float2)(0.0f), (float4)(0.0f), 1.0f, heights[index], incoming};
@@ -103,7 +106,7 @@ static inline float mean_above_0(float a, float b)
 }
 
 // In parts of the facet's width: what the neighbour at a side of x hides of light with this slope, x and y being any two axes.
-static inline float hidden_by(const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g, float g_other, int axis, float ratio,
+static inline float hidden_by(global const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g, float g_other, int axis, float ratio,
                               float meets)
 {
   if (to.x < 0 || to.y < 0 || to.x >= layout->columns || to.y >= layout->rows) return 0.0f;
@@ -112,7 +115,7 @@ static inline float hidden_by(const DeviceLayout* layout, const Facet* facet, in
   return mean_above_0(along * 0.5f * (g + h), along * (g_other - h_other) * ratio) / fmax(0.1f, meets);
 }
 
-static inline LitPart lit_part(const DeviceLayout* layout, const Facet* facet, float2 inside, float2 slope, float2 g)
+static inline LitPart lit_part(global const DeviceLayout* layout, const Facet* facet, float2 inside, float2 slope, float2 g)
 {
   const float ratio = layout->facet_y / layout->facet_x, in = 1.0f + dot(inside, g), out = 1.0f + dot(slope, g);
   const int2 at = (int2)(facet->column, facet->row); // rows count downwards
@@ -140,7 +143,7 @@ typedef struct {
 #endif
 } Beams;
 
-static inline Beams beams_of(const DeviceLayout* layout, const Facet* facet, float2 slope)
+static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* facet, float2 slope)
 {
   const float n = layout->n;
   const float2 g = facet_gradient(slope, n, facet->sines);
@@ -178,7 +181,7 @@ static inline Beams beams_of(const DeviceLayout* layout, const Facet* facet, flo
 
 #if NEPHROID_SPREAD
 // How far beam i is from the middle, in cells.
-static inline float2 shift_of(const DeviceLayout* layout, const Footprint* print, int i)
+static inline float2 shift_of(global const DeviceLayout* layout, const Footprint* print, int i)
 {
   float2 shift = layout->index_over[print->groups - 1 + i / print->points] * print->by_index;
   if (print->points == 1) return shift;
@@ -188,7 +191,7 @@ static inline float2 shift_of(const DeviceLayout* layout, const Footprint* print
 }
 #endif
 
-static inline Footprint footprint(const DeviceLayout* layout, const Facet* facet, const Beams* beams, float distance)
+static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Facet* facet, const Beams* beams, float distance)
 {
   Footprint print;
   const float way = distance + facet->height;
@@ -239,7 +242,7 @@ static inline float2 reach_of(const Footprint* print)
 }
 
 // The cells that a footprint touches: x and y of the first, and behind the last.
-static inline int4 cells_of(const DeviceLayout* layout, const Footprint* print)
+static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* print)
 {
 #if NEPHROID_SPREAD
   const float2 low = print->low, high = print->high;
@@ -257,7 +260,7 @@ static inline int4 cells_of(const DeviceLayout* layout, const Footprint* print)
 #define TILE 8
 typedef float Tile[TILE * TILE];
 
-static inline int fill_tile(const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile)
+static SEPARATE int fill_tile(global const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile)
 {
   for (int i = 0; i < TILE * TILE; ++i) tile[i] = 0.0f;
   const int count = print->groups * print->points;
@@ -278,7 +281,7 @@ static inline int fill_tile(const DeviceLayout* layout, const Footprint* print, 
 #else
 #define TILE (1 << 20)
 typedef float Tile[1];
-static inline int fill_tile(const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile) { return 1; }
+static inline int fill_tile(global const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile) { return 1; }
 #define PART_ON(print, tile, x, y) (part_on((print).x, x) * part_on((print).y, y))
 #endif
 

@@ -5,33 +5,33 @@
 #include "kernels/tracing/registers.h"
 
 // light: [receiver][cell], to which every facet adds.
-__kernel void add_light(DeviceLayout own_layout, __global const DeviceReceiver* receivers, __global const DeviceIncoming* incoming,
+__kernel void add_light(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const DeviceIncoming* incoming,
                         __global const float* heights, __global const float2* slopes, __global long* light)
 {
   const uint index = (uint)get_global_id(0);
-  if (index >= (uint)(own_layout.columns * own_layout.rows)) return;
-  const Facet facet = facet_at(&own_layout, incoming, heights, index);
-  const Beams beams = beams_of(&own_layout, &facet, slopes[index]);
-  for (int j = 0; j < own_layout.receivers; ++j) {
-    const Footprint print = footprint(&own_layout, &facet, &beams, receivers[j].distance);
+  if (index >= (uint)(layout->columns * layout->rows)) return;
+  const Facet facet = facet_at(layout, incoming, heights, index);
+  const Beams beams = beams_of(layout, &facet, slopes[index]);
+  for (int j = 0; j < layout->receivers; ++j) {
+    const Footprint print = footprint(layout, &facet, &beams, receivers[j].distance);
     Tile tile;
-    FOR_CELLS(&own_layout, print, tile)
-      add_exactly(light + cell_at(&own_layout, j, x, y), quanta_of(beams.power * PART_ON(print, tile, x, y)));
+    FOR_CELLS(layout, print, tile)
+      add_exactly(light + cell_at(layout, j, x, y), quanta_of(beams.power * PART_ON(print, tile, x, y)));
   }
 }
 
-__kernel void find_lack(DeviceLayout own_layout, __global const DeviceReceiver* receivers, __global const long* light,
+__kernel void find_lack(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const long* light,
                         __global const float* wanted, __global float* lack)
 {
-  const uint item = (uint)get_global_id(0), cells = (uint)(own_layout.cells_x * own_layout.cells_y);
-  if (item < cells * (uint)own_layout.receivers) lack[item] = lack_of(light[item], wanted[item], receivers[item / cells].weight);
+  const uint item = (uint)get_global_id(0), cells = (uint)(layout->cells_x * layout->cells_y);
+  if (item < cells * (uint)layout->receivers) lack[item] = lack_of(light[item], wanted[item], receivers[item / cells].weight);
 }
 
 // Over which the gradient is a difference, in cells of the last receiver: as little as single precision tells apart well.
 #define DIFFERENCE 0.02f
 
 // A facet's light times what lacks where it falls.
-static inline float along_lack(const DeviceLayout* layout, const Facet* facet, float2 slope, global const DeviceReceiver* receivers,
+static inline float along_lack(global const DeviceLayout* layout, const Facet* facet, float2 slope, global const DeviceReceiver* receivers,
                                global const float* lack)
 {
   const Beams beams = beams_of(layout, facet, slope);
@@ -45,20 +45,20 @@ static inline float along_lack(const DeviceLayout* layout, const Facet* facet, f
 }
 
 // Of the weighted squares, by each facet's slope.
-__kernel void find_gradient(DeviceLayout own_layout, __global const DeviceReceiver* receivers, __global const DeviceIncoming* incoming,
+__kernel void find_gradient(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const DeviceIncoming* incoming,
                             __global const float* heights, __global const float2* slopes, __global const float* lack,
                             __global float2* gradient)
 {
   const uint index = (uint)get_global_id(0);
-  if (index >= (uint)(own_layout.columns * own_layout.rows)) return;
-  const Facet facet = facet_at(&own_layout, incoming, heights, index);
+  if (index >= (uint)(layout->columns * layout->rows)) return;
+  const Facet facet = facet_at(layout, incoming, heights, index);
   const float2 slope = slopes[index];
-  const float2 h = DIFFERENCE * (float2)(own_layout.cell_x, own_layout.cell_y) / receivers[own_layout.receivers - 1].distance;
+  const float2 h = DIFFERENCE * (float2)(layout->cell_x, layout->cell_y) / receivers[layout->receivers - 1].distance;
   float change[4];
   ROLLED
   for (int side = 0; side < 4; ++side) {
     const float2 moved = slope + (side & 1 ? -h : h) * (side < 2 ? (float2)(1.0f, 0.0f) : (float2)(0.0f, 1.0f));
-    change[side] = along_lack(&own_layout, &facet, moved, receivers, lack);
+    change[side] = along_lack(layout, &facet, moved, receivers, lack);
   }
   gradient[index] = (float2)(change[0] - change[1], change[2] - change[3]) / (2.0f * h);
 }

@@ -6,7 +6,7 @@
 #include "kernels/inverse/footprint.h"
 
 // Light and what follows from it: [receiver][cell].
-static inline size_t cell_at(const DeviceLayout* layout, int receiver, int x, int y)
+static inline size_t cell_at(global const DeviceLayout* layout, int receiver, int x, int y)
 {
   return ((size_t)receiver * (size_t)layout->cells_y + (size_t)y) * (size_t)layout->cells_x + (size_t)x;
 }

@@ -18,11 +18,11 @@
 #define PARTS 2
 
 #define SEARCH_ARGUMENTS                                                                                                                   \
-  DeviceLayout own_layout, global const DeviceReceiver *receivers, global const DeviceIncoming *incoming, global const float *heights,   \
+  __global const DeviceLayout* layout, global const DeviceReceiver *receivers, global const DeviceIncoming *incoming, global const float *heights,   \
       global float2 *slopes, global float *lack, float smoothing
 
 typedef struct {
-  const DeviceLayout* layout;
+  global const DeviceLayout* layout;
   global const DeviceReceiver* receivers;
   global const float* lack;
   Facet facet;
@@ -32,9 +32,9 @@ typedef struct {
 
 
 // What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this slope.
-static inline float score(const Search* s, float2 slope)
+static SEPARATE float score(const Search* s, float2 slope)
 {
-  const DeviceLayout* layout = s->layout;
+  global const DeviceLayout* layout = s->layout;
   const Beams beams = beams_of(layout, &s->facet, slope);
 #if NEPHROID_SMOOTHS
   float sum = -dot(facet_normal(slope, layout->n, s->facet.sines), s->pull);
@@ -66,13 +66,13 @@ static inline float score(const Search* s, float2 slope)
 }
 
 #if NEPHROID_SMOOTHS
-static inline float neighbours_of(const DeviceLayout* layout, int column, int row)
+static inline float neighbours_of(global const DeviceLayout* layout, int column, int row)
 {
   return (float)((column > 0) + (column + 1 < layout->columns) + (row > 0) + (row + 1 < layout->rows));
 }
 
 // inverse::pull: the neighbours' normals, times one part in the facet's neighbours and one in each neighbour's own.
-static inline float3 pull_on(const DeviceLayout* layout, global const DeviceIncoming* incoming, global const float* heights,
+static inline float3 pull_on(global const DeviceLayout* layout, global const DeviceIncoming* incoming, global const float* heights,
                              global const float2* slopes, uint index)
 {
   const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
@@ -89,7 +89,7 @@ static inline float3 pull_on(const DeviceLayout* layout, global const DeviceInco
 }
 #endif
 
-static inline Search search_of(const DeviceLayout* layout, global const DeviceReceiver* receivers, global const DeviceIncoming* incoming,
+static SEPARATE Search search_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers, global const DeviceIncoming* incoming,
                                global const float* heights, global const float2* slopes, global const float* lack, float smoothing, uint index)
 {
   Search s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
@@ -101,13 +101,13 @@ static inline Search search_of(const DeviceLayout* layout, global const DeviceRe
 }
 
 // A receiver's cells with a rim of one more all around, where nothing lacks.
-static inline size_t rimmed_at(const DeviceLayout* layout, int receiver, int x, int y)
+static inline size_t rimmed_at(global const DeviceLayout* layout, int receiver, int x, int y)
 {
   return ((size_t)receiver * (size_t)(layout->cells_y + 2) + (size_t)(y + 1)) * (size_t)(layout->cells_x + 2) + (size_t)(x + 1);
 }
 
 // The beam of a flat facet on the middle of cell 0, along one axis.
-static inline Beam flat_beam(const DeviceLayout* layout, float distance, int axis)
+static inline Beam flat_beam(global const DeviceLayout* layout, float distance, int axis)
 {
   const float wide = (axis == 0 ? layout->facet_x : layout->facet_y) * (1.0f + distance * layout->spreads), sun = 0.5f * layout->sun_radius,
               blur = distance * sqrt(12.0f * (sun * sun + layout->scatter * layout->scatter));
@@ -117,12 +117,12 @@ static inline Beam flat_beam(const DeviceLayout* layout, float distance, int axi
 
 // The mean of the lack under such beams about every cell's middle: what candidates are looked up in, at the nearest cell. First along y, then
 // along x; a row of cells an item.
-__kernel void smear_y(DeviceLayout own_layout, __global const DeviceReceiver* receivers, __global const float* lack, __global float* along_y)
+__kernel void smear_y(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const float* lack, __global float* along_y)
 {
-  const int row = (int)get_global_id(0), cells_x = own_layout.cells_x, cells_y = own_layout.cells_y;
-  if (row >= cells_y * own_layout.receivers) return;
+  const int row = (int)get_global_id(0), cells_x = layout->cells_x, cells_y = layout->cells_y;
+  if (row >= cells_y * layout->receivers) return;
   const int y = row % cells_y;
-  const Beam beam = flat_beam(&own_layout, receivers[row / cells_y].distance, 1);
+  const Beam beam = flat_beam(layout, receivers[row / cells_y].distance, 1);
   const int reach = (int)fmin(ceil(beam.reach - 0.5f), (float)cells_y);
   lack += (size_t)row * (size_t)cells_x;
   along_y += (size_t)row * (size_t)cells_x;
@@ -132,15 +132,15 @@ __kernel void smear_y(DeviceLayout own_layout, __global const DeviceReceiver* re
     for (int x = 0; x < cells_x; ++x) along_y[x] += part * lack[d * cells_x + x];
   }
 }
-__kernel void smear_x(DeviceLayout own_layout, __global const DeviceReceiver* receivers, __global const float* along_y,
+__kernel void smear_x(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const float* along_y,
                       __global float* smeared)
 {
-  const int row = (int)get_global_id(0), cells_x = own_layout.cells_x, cells_y = own_layout.cells_y;
-  if (row >= cells_y * own_layout.receivers) return;
-  const Beam beam = flat_beam(&own_layout, receivers[row / cells_y].distance, 0);
+  const int row = (int)get_global_id(0), cells_x = layout->cells_x, cells_y = layout->cells_y;
+  if (row >= cells_y * layout->receivers) return;
+  const Beam beam = flat_beam(layout, receivers[row / cells_y].distance, 0);
   const int reach = (int)fmin(ceil(beam.reach - 0.5f), (float)cells_x);
   along_y += (size_t)row * (size_t)cells_x;
-  smeared += rimmed_at(&own_layout, row / cells_y, 0, row % cells_y);
+  smeared += rimmed_at(layout, row / cells_y, 0, row % cells_y);
   for (int x = 0; x < cells_x; ++x) smeared[x] = 0.0f;
   for (int d = -reach; d <= reach; ++d) {
     const float part = part_on(beam, d);
@@ -155,9 +155,9 @@ __kernel void smear_x(DeviceLayout own_layout, __global const DeviceReceiver* re
 // The rows part, part + PARTS, ... of a lattice of points on the last receiver, LATTICE across and down, moved at random by `offset`: the
 // lowest sum of what lacks where a facet's light to each point falls, for every eighth point of a row, and the slope to it. Infinite: none
 // is reachable.
-static void best_of_lattice(const Search* s, global const float* smeared, float2 offset, int part, float lowest_of[8], float2 slopes[8])
+static SEPARATE void best_of_lattice(const Search* s, global const float* smeared, float2 offset, int part, float lowest_of[8], float2 slopes[8])
 {
-  const DeviceLayout* layout = s->layout;
+  global const DeviceLayout* layout = s->layout;
   const float last = s->receivers[layout->receivers - 1].distance + s->facet.height;
   const float2 step = (float2)(layout->receiver_x, layout->receiver_y) / (float)LATTICE,
                corner = offset * step - 0.5f * (float2)(layout->receiver_x, layout->receiver_y);
@@ -210,7 +210,7 @@ __kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global con
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
   const uint index = order[first + i];
-  const Search s = search_of(&own_layout, receivers, incoming, heights, slopes, lack, smoothing, index);
+  const Search s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
   const float2 now = slopes[index];
   const float begin = score(&s, now);
   float2 from = now;
@@ -229,15 +229,15 @@ __kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global con
       }
     }
   }
-  const float last = receivers[own_layout.receivers - 1].distance;
-  float2 step = (float2)(own_layout.receiver_x, own_layout.receiver_y) / (LATTICE * last);
-  while (step.x > FINEST * own_layout.cell_x / last) {
+  const float last = receivers[layout->receivers - 1].distance;
+  float2 step = (float2)(layout->receiver_x, layout->receiver_y) / (LATTICE * last);
+  while (step.x > FINEST * layout->cell_x / last || step.y > FINEST * layout->cell_y / last) {
     step *= 0.5f;
     for (int k = 0; k < STEPS; ++k) {
       const float2 middle = from;
       for (int way = 0; way < 4; ++way) {
         const float2 slope = middle + step * (float2)((float)((way == 0) - (way == 1)), (float)((way == 2) - (way == 3)));
-        if (!is_reachable(slope, own_layout.n, s.facet.sines, own_layout.steepest)) continue;
+        if (!is_reachable(slope, layout->n, s.facet.sines, layout->steepest)) continue;
         const float there = score(&s, slope);
         if (there < lowest) {
           lowest = there;
@@ -251,14 +251,14 @@ __kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global con
   done[i] = !(lowest < begin);
 }
 
-static inline void claim_cells(const DeviceLayout* layout, const Footprint* print, int receiver, global uint* claims, uint key)
+static inline void claim_cells(global const DeviceLayout* layout, const Footprint* print, int receiver, global uint* claims, uint key)
 {
   const int4 box = cells_of(layout, print);
   for (int y = box.y; y < box.w; ++y)
     for (int x = box.x; x < box.z; ++x) atomic_min(claims + cell_at(layout, receiver, x, y), key);
 }
 
-static inline bool holds_cells(const DeviceLayout* layout, const Footprint* print, int receiver, global const uint* claims, uint key)
+static SEPARATE bool holds_cells(global const DeviceLayout* layout, const Footprint* print, int receiver, global const uint* claims, uint key)
 {
   const int4 box = cells_of(layout, print);
   for (int y = box.y; y < box.w; ++y)
@@ -277,26 +277,26 @@ __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, ui
   const uint i = (uint)get_global_id(0);
   if (i >= count || done[i]) return;
   const uint index = order[first + i], key = KEY(turn, i);
-  const Facet facet = facet_at(&own_layout, incoming, heights, index);
-  const Beams now = beams_of(&own_layout, &facet, slopes[index]), then = beams_of(&own_layout, &facet, found[i]);
-  for (int j = 0; j < own_layout.receivers; ++j) {
-    const Footprint before = footprint(&own_layout, &facet, &now, receivers[j].distance),
-                    after = footprint(&own_layout, &facet, &then, receivers[j].distance);
-    claim_cells(&own_layout, &before, j, claims, key);
-    claim_cells(&own_layout, &after, j, claims, key);
+  const Facet facet = facet_at(layout, incoming, heights, index);
+  const Beams now = beams_of(layout, &facet, slopes[index]), then = beams_of(layout, &facet, found[i]);
+  for (int j = 0; j < layout->receivers; ++j) {
+    const Footprint before = footprint(layout, &facet, &now, receivers[j].distance),
+                    after = footprint(layout, &facet, &then, receivers[j].distance);
+    claim_cells(layout, &before, j, claims, key);
+    claim_cells(layout, &after, j, claims, key);
   }
 #if NEPHROID_SMOOTHS
-  __global uint* facets = claims + cell_at(&own_layout, own_layout.receivers, 0, 0);
-  const int column = (int)(index % (uint)own_layout.columns), row = (int)(index / (uint)own_layout.columns);
+  __global uint* facets = claims + cell_at(layout, layout->receivers, 0, 0);
+  const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
   atomic_min(facets + index, key);
   if (column > 0) atomic_min(facets + index - 1, key);
-  if (column + 1 < own_layout.columns) atomic_min(facets + index + 1, key);
-  if (row > 0) atomic_min(facets + index - own_layout.columns, key);
-  if (row + 1 < own_layout.rows) atomic_min(facets + index + own_layout.columns, key);
+  if (column + 1 < layout->columns) atomic_min(facets + index + 1, key);
+  if (row > 0) atomic_min(facets + index - layout->columns, key);
+  if (row + 1 < layout->rows) atomic_min(facets + index + layout->columns, key);
 #endif
 }
 
-static inline void move_light(const DeviceLayout* layout, const Footprint* print, float power, int receiver, global long* light)
+static SEPARATE void move_light(global const DeviceLayout* layout, const Footprint* print, float power, int receiver, global long* light)
 {
   Tile tile;
   FOR_CELLS(layout, *print, tile) {
@@ -305,7 +305,7 @@ static inline void move_light(const DeviceLayout* layout, const Footprint* print
   }
 }
 
-static inline void note_lack(const DeviceLayout* layout, const Footprint* print, float weight, int receiver, global const long* light,
+static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprint* print, float weight, int receiver, global const long* light,
                              global const float* wanted, global float* lack)
 {
   const int4 box = cells_of(layout, print);
@@ -323,31 +323,31 @@ __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long
   const uint i = (uint)get_global_id(0);
   if (i >= count || done[i]) return;
   const uint index = order[first + i], key = KEY(turn, i);
-  const Facet facet = facet_at(&own_layout, incoming, heights, index);
-  const Beams now = beams_of(&own_layout, &facet, slopes[index]), then = beams_of(&own_layout, &facet, found[i]);
-  for (int j = 0; j < own_layout.receivers; ++j) {
-    const Footprint before = footprint(&own_layout, &facet, &now, receivers[j].distance),
-                    after = footprint(&own_layout, &facet, &then, receivers[j].distance);
-    if (!holds_cells(&own_layout, &before, j, claims, key) || !holds_cells(&own_layout, &after, j, claims, key)) return;
+  const Facet facet = facet_at(layout, incoming, heights, index);
+  const Beams now = beams_of(layout, &facet, slopes[index]), then = beams_of(layout, &facet, found[i]);
+  for (int j = 0; j < layout->receivers; ++j) {
+    const Footprint before = footprint(layout, &facet, &now, receivers[j].distance),
+                    after = footprint(layout, &facet, &then, receivers[j].distance);
+    if (!holds_cells(layout, &before, j, claims, key) || !holds_cells(layout, &after, j, claims, key)) return;
   }
 #if NEPHROID_SMOOTHS
-  __global const uint* facets = claims + cell_at(&own_layout, own_layout.receivers, 0, 0);
-  const int column = (int)(index % (uint)own_layout.columns), row = (int)(index / (uint)own_layout.columns);
+  __global const uint* facets = claims + cell_at(layout, layout->receivers, 0, 0);
+  const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
   if (facets[index] != key || (column > 0 && facets[index - 1] != key) ||
-      (column + 1 < own_layout.columns && facets[index + 1] != key) || (row > 0 && facets[index - own_layout.columns] != key) ||
-      (row + 1 < own_layout.rows && facets[index + own_layout.columns] != key))
+      (column + 1 < layout->columns && facets[index + 1] != key) || (row > 0 && facets[index - layout->columns] != key) ||
+      (row + 1 < layout->rows && facets[index + layout->columns] != key))
     return;
 #endif
   done[i] = 1;
-  const Search s = search_of(&own_layout, receivers, incoming, heights, slopes, lack, smoothing, index);
+  const Search s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
   if (!(score(&s, found[i]) < score(&s, slopes[index]))) return;
-  for (int j = 0; j < own_layout.receivers; ++j) {
-    const Footprint before = footprint(&own_layout, &facet, &now, receivers[j].distance),
-                    after = footprint(&own_layout, &facet, &then, receivers[j].distance);
-    move_light(&own_layout, &before, -now.power, j, light);
-    move_light(&own_layout, &after, then.power, j, light);
-    note_lack(&own_layout, &before, receivers[j].weight, j, light, wanted, lack);
-    note_lack(&own_layout, &after, receivers[j].weight, j, light, wanted, lack);
+  for (int j = 0; j < layout->receivers; ++j) {
+    const Footprint before = footprint(layout, &facet, &now, receivers[j].distance),
+                    after = footprint(layout, &facet, &then, receivers[j].distance);
+    move_light(layout, &before, -now.power, j, light);
+    move_light(layout, &after, then.power, j, light);
+    note_lack(layout, &before, receivers[j].weight, j, light, wanted, lack);
+    note_lack(layout, &after, receivers[j].weight, j, light, wanted, lack);
   }
   slopes[index] = found[i];
 }

@@ -44,7 +44,7 @@ void show_pictures(const PicturesOptions& options)
     fmt::print("picture {} at {} mm: at best {:.3f} off (rel_l2), brightest {:.1f} times an even picture\n", j + 1,
                plan.layout.distances[j], off, most * static_cast<double>(target.size()));
   }
-  for (const std::string& note : plan.notes) fmt::print("note: {}\n", note);
+  for (const std::string& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
   if (options.picture.empty()) return;
   const auto [width, height] = preset.scene.camera.resolution;
   image::write_png(options.picture, width, height, sheet(columns, width, height)->rgb);

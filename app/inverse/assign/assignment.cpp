@@ -32,8 +32,9 @@ Assignment::Assignment(const compute::Context& context, const Layout& layout, co
 
 void Assignment::relight()
 {
-  layout_.distances = given_.distances;
-  layout_.weights = given_.weights;
+  std::vector<Incoming> incoming = std::move(layout_.incoming);
+  layout_ = given_;
+  layout_.incoming = std::move(incoming);
   weights_ = picture_weights(layout_, targets_);
   facets_.aim(layout_, targets_, weights_);
   put(std::vector(slopes()));

@@ -2,6 +2,7 @@
 #include "inverse/assign/device_facets.h"
 
 #include "inverse/assign/footprint.h"
+#include "inverse/bending.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,10 +50,27 @@ std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& ta
 
 } // namespace
 
+namespace {
+
 std::size_t rimmed_cells(const Layout& l)
 {
   return static_cast<std::size_t>(l.cells.x + 2) * static_cast<std::size_t>(l.cells.y + 2) * l.distances.size();
 }
+
+/// More facets get into each other's way the fewer cells there are, and the more of them a facet's light touches.
+std::size_t batch_of(const Layout& l)
+{
+  std::size_t touched = 0;
+  const std::size_t facet = index_at(l.facets.x / 2, l.facets.y / 2, l.facets.x);
+  for (std::size_t j = 0; j < l.distances.size(); ++j) {
+    const Footprint print = footprint(l, facet, nearest_reachable(-l.middle(facet) / l.distances[j], l.n, l.sines_on(facet)), j);
+    touched = std::max(touched, static_cast<std::size_t>(print.columns) * static_cast<std::size_t>(print.rows));
+  }
+  const std::size_t most = std::clamp<std::size_t>(l.facet_count() / 16, 1, DeviceFacets::most_in_a_batch);
+  return std::clamp<std::size_t>(l.cell_count() / std::max<std::size_t>(128, 8 * touched), 1, most);
+}
+
+} // namespace
 
 shared::DeviceLayout device_layout(const Layout& l)
 {
@@ -131,7 +149,8 @@ compute::Defines facet_defines(const Layout& layout)
 
 DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets,
                            std::span<const double> weights)
-    : context_(context), layout_(device_layout(layout)), facets_(layout.facet_count()), cells_(layout.cell_count() * targets.size()),
+    : context_(context), layout_(context, "layout", std::vector{device_layout(layout)}), facets_(layout.facet_count()),
+      batch_(batch_of(layout)), cells_(layout.cell_count() * targets.size()),
       rows_(static_cast<std::size_t>(layout.cells.y) * targets.size()), receivers_(context, "receivers", receivers_of(layout, weights)),
       incoming_(context, "light on the facets", incoming_of(layout)), heights_(context, "facets' heights", facets_),
       wanted_(context, "wanted light", wanted_of(layout, targets)), lack_(context, "lack of light", cells_),
@@ -155,14 +174,14 @@ DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout
 
 void DeviceFacets::aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights)
 {
+  layout_.write(std::vector{device_layout(layout)});
   receivers_.write(receivers_of(layout, weights));
   wanted_.write(wanted_of(layout, targets));
 }
 
 void DeviceFacets::find_lack()
 {
-  find_lack_.run(cells_, group,
-                 {{"own_layout", layout_}, {"receivers", receivers_}, {"light", light_}, {"wanted", wanted_}, {"lack", lack_}});
+  find_lack_.run(cells_, group, {{"layout", layout_}, {"receivers", receivers_}, {"light", light_}, {"wanted", wanted_}, {"lack", lack_}});
 }
 
 void DeviceFacets::put(const std::vector<glm::dvec2>& slopes, const std::vector<double>& heights)
@@ -173,7 +192,7 @@ void DeviceFacets::put(const std::vector<glm::dvec2>& slopes, const std::vector<
   heights_.write(std::vector<float>(heights.begin(), heights.end()));
   light_.fill_zero();
   add_light_.run(facets_, group,
-                 {{"own_layout", layout_},
+                 {{"layout", layout_},
                   {"receivers", receivers_},
                   {"incoming", incoming_},
                   {"heights", heights_},
@@ -202,17 +221,15 @@ void DeviceFacets::begin_sweep(const std::vector<std::uint32_t>& order, std::int
   turn_ = all_turns; // the next one begins anew
 }
 
-std::size_t DeviceFacets::batch() const { return std::clamp<std::size_t>(cells_ / receivers_.size() / 128, 16, most_in_a_batch); }
-
 void DeviceFacets::look(std::size_t first, std::size_t count, double smoothing)
 {
   const auto first_facet = static_cast<std::uint32_t>(first), facets = static_cast<std::uint32_t>(count);
   const auto weight = static_cast<float>(smoothing);
-  const compute::Argument shared[] = {{"own_layout", layout_}, {"receivers", receivers_}, {"incoming", incoming_}, {"heights", heights_},
-                                      {"slopes", slopes_},     {"lack", lack_},           {"smoothing", weight},   {"order", order_},
-                                      {"first", first_facet},  {"count", facets},         {"found", found_},       {"done", done_}};
-  smear_y_.run(rows_, 1, {{"own_layout", layout_}, {"receivers", receivers_}, {"lack", lack_}, {"along_y", along_y_}});
-  smear_x_.run(rows_, 1, {{"own_layout", layout_}, {"receivers", receivers_}, {"along_y", along_y_}, {"smeared", smeared_}});
+  const compute::Argument shared[] = {{"layout", layout_},    {"receivers", receivers_}, {"incoming", incoming_}, {"heights", heights_},
+                                      {"slopes", slopes_},    {"lack", lack_},           {"smoothing", weight},   {"order", order_},
+                                      {"first", first_facet}, {"count", facets},         {"found", found_},       {"done", done_}};
+  smear_y_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"lack", lack_}, {"along_y", along_y_}});
+  smear_x_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"along_y", along_y_}, {"smeared", smeared_}});
   look_.run(count, group, shared, {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}});
   for (int i = 0; i < turns; ++i, ++turn_) {
     if (turn_ >= all_turns) {
@@ -228,7 +245,7 @@ void DeviceFacets::look(std::size_t first, std::size_t count, double smoothing)
 std::vector<glm::dvec2> DeviceFacets::gradient()
 {
   find_gradient_.run(facets_, group,
-                     {{"own_layout", layout_},
+                     {{"layout", layout_},
                       {"receivers", receivers_},
                       {"incoming", incoming_},
                       {"heights", heights_},

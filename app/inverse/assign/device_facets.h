@@ -44,8 +44,8 @@ public:
 
   /// A sweep's order, and its number, of which its random numbers come.
   void begin_sweep(const std::vector<std::uint32_t>& order, std::int64_t sweep, std::uint64_t seed);
-  /// How many facets a batch has: more of them get into each other's way the fewer cells there are.
-  std::size_t batch() const;
+  /// How many facets a batch has.
+  std::size_t batch() const { return batch_; }
   /// Facets first .. first + count - 1 of the order look for better slopes and take them. What they gain is what each of them would gain
   /// alone. smoothing: what a facet's Cost_N weighs in the sum.
   void look(std::size_t first, std::size_t count, double smoothing);
@@ -59,8 +59,8 @@ public:
 
 private:
   compute::Context context_;
-  shared::DeviceLayout layout_;
-  std::size_t facets_, cells_, rows_; ///< cells and their rows: of all receivers
+  std::size_t facets_, batch_, cells_, rows_;    ///< cells and their rows: of all receivers
+  compute::Buffer<shared::DeviceLayout> layout_; ///< one
   compute::Buffer<shared::DeviceReceiver> receivers_;
   compute::Buffer<shared::DeviceIncoming> incoming_;
   compute::Buffer<float> heights_, wanted_, lack_, along_y_, smeared_;

@@ -13,7 +13,7 @@
 namespace nephroid::inverse {
 namespace {
 
-/// At most so many points across: more cost time in every sweep and gain little, since each sweep has its lattice elsewhere.
+/// At most so many points across: more cost time and tell little.
 constexpr int most_points = 64;
 
 /// Width of a flat facet's beam on a receiver; a lamp's light spreads.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object as one closed solid in millimetres (thesis section 5.4.2): planar facets about z = 0, vertical walls between
-// them, flat sides, and the flat front at z = thickness.
+// The object as one closed solid in millimetres (thesis section 5.4.2): planar facets about z = 0 and walls between
+// them, or a smooth surface, flat sides, and the flat front at z = thickness.
 #pragma once
 #include "inverse/facets/surface.h"
 #include "inverse/layout.h"

@@ -206,6 +206,7 @@ void Lens::see()
     const Surface::At at = surface_.at(p);
     slopes_[i] = facet_slope(at.gradient, layout_.n, incoming_at(p, at.z).sines);
   }
+  sent_ = sent_by_.sum();
 }
 
 /// Light flows from where there is too much of it: along the gradient of the solution of Poisson's equation, as fast as what is there lets

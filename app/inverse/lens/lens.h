@@ -104,9 +104,9 @@ private:
   // The state, and what follows from it.
   int moved_ = 0; ///< steps of the transport
   std::int64_t steps_ = 0, stale_ = 0;
-  double share_ = 1;            ///< of a correction that is carried out
-  double best_ = 1;             ///< the least error of a surface
-  Grid heights_, best_heights_; ///< of the facets' corners, millimetres
+  double share_ = 1;                                      ///< of a correction that is carried out
+  double best_ = std::numeric_limits<double>::infinity(); ///< the least error of a surface
+  Grid heights_, best_heights_;                           ///< of the facets' corners, millimetres
   Surface surface_;
   std::vector<glm::dvec2> slopes_;
   std::vector<std::vector<double>> light_; ///< of the one receiver, in facets

@@ -126,7 +126,7 @@ Target best_possible(const Layout& layout, const Target& target, std::size_t rec
 {
   const Smears smears = smears_of(layout, receiver);
   const std::size_t taps = smears.x.parts.size() + smears.y.parts.size();
-  if (taps == 2) return target;
+  if (taps <= 2) return target;
   // Light may be aimed beside the receiver: a rim of cells, in which nothing is wanted or minded.
   const glm::ivec2 rim(smears.x.parts.size() / 2, smears.y.parts.size() / 2), cells = layout.cells + 2 * rim;
   const auto for_receiver = [&](const auto& use) {
