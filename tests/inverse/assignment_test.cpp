@@ -27,6 +27,10 @@ TEST(Assignment, NeverLosesAndSoonHasThePictures)
   }
   EXPECT_GT(begin, 0.3);
   EXPECT_LT(mean(a.costs()).cost, 0.15);
+  // No facet's light was lost on the way: nobody moved in another's cells.
+  std::vector<std::vector<double>> light(2, std::vector<double>(layout.cell_count()));
+  light_all(layout, a.slopes(), a.heights(), light);
+  for (std::size_t c = 0; c < light[0].size(); ++c) EXPECT_NEAR(a.light(0)[c], light[0][c], 1e-4);
 }
 
 // Every slope is below the limit, and the light on a receiver is what leaves the object less what is beside it.
