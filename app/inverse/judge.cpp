@@ -79,7 +79,7 @@ SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid
   normals = compute::Buffer(context, "solid's normals", normals_of(solid));
   root = bvh.root;
   compute::Defines defines = scene::tree_defines(bvh);
-  defines["NEPHROID_SPREAD"] = spreads ? "1" : "0";
+  defines.insert_or_assign("NEPHROID_SPREAD", std::string(1, spreads ? '1' : '0'));
   program.emplace(context, "inverse/judge.cl", defines);
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# tests/kernels/oclgrind.sh PROGRAM: the kernels of small runs under Oclgrind, which finds races and memory out of bounds. Some two minutes.
+# tests/kernels/oclgrind.sh PROGRAM: the kernels of small runs under Oclgrind, which finds races and memory out of bounds. Some three minutes.
 # Without the compiler's optimisations: of these Oclgrind 21.10 does not know llvm.bitreverse. Without --uninitialized, which in that version
 # stops at every sincos, and takes what atomics add to a buffer that the host filled for uninitialized.
 set -euo pipefail
@@ -25,3 +25,6 @@ check spectral/glass-in-a-room --set spectral.indirect_photons_per_pass=64 # pho
 check spectral/three-lamps                                                 # an environment
 check spectral/prism --set spectral.relight=true                           # a layer a light and cluster
 check extremes/nested-eight                                                # spheres
+small=(--passes 1 --set "inverse.facets=[2,2]" --set "inverse.size_mm=[10,10]" --set "inverse.receiver_mm=[20,20]" --set "inverse.cells=[4,3]"
+  --set "scene.camera.resolution=[64,64]")
+check inverse/tilted --set inverse.sun_deg=0.5 --set inverse.smoothing_normals=0.1 # facets and their judge, nothing left out

@@ -59,8 +59,8 @@ public:
 
 private:
   compute::Context context_;
-  std::size_t facets_, batch_, cells_, rows_;    ///< cells and their rows: of all receivers
   compute::Buffer<shared::DeviceLayout> layout_; ///< one
+  std::size_t facets_, batch_, cells_, rows_;    ///< cells and their rows: of all receivers
   compute::Buffer<shared::DeviceReceiver> receivers_;
   compute::Buffer<shared::DeviceIncoming> incoming_;
   compute::Buffer<float> heights_, wanted_, lack_, along_y_, smeared_;

@@ -80,7 +80,8 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
       fmt::format("{:.6g} cm3", scene::signed_volume(solid.mesh, 0, static_cast<std::uint32_t>(solid.mesh.triangles.size())) / 1000));
   row("material", material);
   row("facets", fmt::format("{} x {}", layout.facets.x, layout.facets.y));
-  row("smallest facet", fmt::format("{:.4g} x {:.4g} mm, as all of them", layout.facet().x, layout.facet().y));
+  row("smallest facet", fmt::format("{:.4g} x {:.4g} mm, as all of them{}", layout.facet().x, layout.facet().y,
+                                    layout.draft > 0 ? ", less what leaning walls take" : ""));
   row("steepest facet", fmt::format("{:.4g} degrees from the front", solid.steepest_deg));
   row("steepest wall", solid.wall_area > 0 ? wall_angle(solid) : "none");
   row("highest wall", mm(solid.highest_wall));
