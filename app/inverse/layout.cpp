@@ -129,14 +129,14 @@ void check_constraints(const Layout& l, const Settings& s, const Place& own)
 /// A cutter must fit onto a facet.
 void check_tool(const Layout& l, const Settings& s, const Place& own)
 {
-  if (!s.tool_radius_mm || s.method == Settings::Method::lens) return;
+  if (!s.tool_radius_mm) return;
   const double width = 2 * *s.tool_radius_mm;
   if (width > std::min(l.size.x, l.size.y))
     throw bad_input(
         own / "tool_radius_mm",
         fmt::format("is {} mm, a tool that is wider than the object of {:.4g} x {:.4g} mm", *s.tool_radius_mm, l.size.x, l.size.y),
         "expected the radius of a tool that fits onto a facet");
-  if (width <= std::min(l.facet().x, l.facet().y)) return;
+  if (s.method == Settings::Method::lens || width <= std::min(l.facet().x, l.facet().y)) return; // a lens has no corners
   throw bad_input(
       own / "tool_radius_mm",
       fmt::format("is {} mm, a tool that is wider than a facet of {:.4g} x {:.4g} mm", *s.tool_radius_mm, l.facet().x, l.facet().y),

@@ -259,15 +259,19 @@ std::vector<double> Lens::heights() const
   return middles;
 }
 
+/// Of the thickness, and of the way to the receiver: as with free heights, a tenth is left.
+constexpr double most_of_thickness = 0.9;
+
 Solid Lens::solid() const
 {
   const double reach = heights_.maxCoeff(); // and as far below z = 0
   const auto refuse = [&](const Place& where, double value) {
-    throw bad_input(where, fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", value, reach), "expected more than that",
+    throw bad_input(where, fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", value, reach),
+                    fmt::format("expected at least {:.4g} mm", reach / most_of_thickness),
                     "choose a larger value or a receiver further away");
   };
-  if (reach >= layout_.thickness) refuse(settings_ / "thickness_mm", layout_.thickness);
-  if (reach >= layout_.distances.front()) refuse(settings_ / "receivers" / 0 / "distance_mm", layout_.distances.front());
+  if (reach > most_of_thickness * layout_.thickness) refuse(settings_ / "thickness_mm", layout_.thickness);
+  if (reach > most_of_thickness * layout_.distances.front()) refuse(settings_ / "receivers" / 0 / "distance_mm", layout_.distances.front());
   if (reach > layout_.band)
     throw bad_input(settings_, fmt::format("the lens's relief is {:.4g} mm", 2 * reach),
                     fmt::format("'max_relief_mm' and 'min_thickness_mm' leave {:.4g} mm", 2 * layout_.band),

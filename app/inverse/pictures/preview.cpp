@@ -205,11 +205,12 @@ std::vector<std::string> picture_notes(const Settings& settings, const Layout& l
   if (settings.method == Settings::Method::assign && one_photograph)
     notes.push_back(
         "flat facets cast patches of their own size, which a photograph shows as grain or rings; for one picture choose the method 'lens'");
-  if (settings.method == Settings::Method::lens)
+  if (settings.method == Settings::Method::lens && layout.incoming.empty()) // other light asks for other depths
     if (const double relief = estimated_relief(layout, targets[0]); relief > deep * layout.thickness)
-      notes.push_back(fmt::format("the lens becomes some {:.2g} mm deep, and the object is {} mm thick; choose a receiver further away, a "
-                                  "brighter 'background' or a larger thickness_mm",
-                                  relief, layout.thickness));
+      notes.push_back(
+          fmt::format("the lens becomes some {:.2g} mm deep, and the object is {} mm thick: {:.2g} mm are left at its thinnest; "
+                      "choose a receiver further away, a brighter 'background' or a larger thickness_mm",
+                      relief, layout.thickness, std::max(0.0, layout.thickness - relief / 2)));
   return notes;
 }
 
