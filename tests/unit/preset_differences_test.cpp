@@ -66,7 +66,7 @@ private:
       value.erase(random_() % value.size());
     else if (value.is_array() && !value.empty())
       value.push_back(value.at(random_() % value.size()));
-    else if (at.back() == "materials")
+    else if (at.back() == "materials" && !value.empty())
       value[odd_names[random_() % std::size(odd_names)]] = value.front();
     else if (value.is_string() && at.back() == "name")
       value = odd_names[random_() % std::size(odd_names)];
