@@ -119,6 +119,8 @@ public:
 /// Real runs of engine 3, short enough for a test.
 class InverseRuns : public FakeRuns {
 public:
+  InverseRuns() { shared_context(); } // before there are threads: it may look at and change the environment
+
   ui::NewRun make(const preset::Preset& preset, const Watch&) override
   {
     ++made;
