@@ -122,7 +122,7 @@ Judge::Judge(const compute::Context& context, const Layout& layout, const Solid&
   indices_ = compute::Buffer(context, "indices", std::vector<float>(layout.indices.begin(), layout.indices.end()));
   distances_ = compute::Buffer(context, "screens", std::vector<float>(screens.begin(), screens.end()));
   light_on_screens_ = compute::zeroed<std::int64_t>(context, "light on the screens", layout.cell_count() * screens.size());
-  fates_ = compute::zeroed<std::int64_t>(context, "where the light goes", FATES * FATE_SUMS);
+  fates_ = compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{FATES} * FATE_SUMS);
   judge_ = solid_.program->kernel("judge");
   light_.assign(screens.size(), std::vector<double>(layout.cell_count()));
 }

@@ -87,8 +87,7 @@ void part_disc(const glm::dmat2& spread, int points, Blur& blur)
   const std::vector<glm::dvec2> disc = disc_points(points);
   for (int k = blur.count - 1; k >= 0; --k) {
     const glm::dvec2 middle = blur.shifts[static_cast<std::size_t>(k)];
-    for (int i = 0; i < points; ++i)
-      blur.shifts[static_cast<std::size_t>(points * k + i)] = middle + spread * disc[static_cast<std::size_t>(i)];
+    for (int i = 0; i < points; ++i) blur.shifts[index_at(i, k, points)] = middle + spread * disc[static_cast<std::size_t>(i)];
   }
   blur.count *= points;
   const glm::dvec2 x = glm::row(spread, 0), y = glm::row(spread, 1);

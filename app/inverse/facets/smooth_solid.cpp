@@ -120,7 +120,7 @@ private:
         for (int v = 1; v < k; ++v)
           for (int u = 1; u < k; ++u) inside.push_back(add(column + static_cast<double>(u) / k, row + static_cast<double>(v) / k));
         const auto [top, right, bottom, left] = sides(column, row);
-        const auto at = [&](int u, int v) {
+        const auto at = [&, top = top, right = right, bottom = bottom, left = left](int u, int v) { // clang 14 captures no bindings
           if (v == 0) return on_across(column, row, u * (top / k));
           if (v == k) return on_across(column, row + 1, u * (bottom / k));
           if (u == 0) return on_down(column, row, v * (left / k));

@@ -126,7 +126,7 @@ Grid pushed(const Grid& from, const Grid& potential, double cell)
 {
   const auto rows = static_cast<int>(from.rows()), columns = static_cast<int>(from.cols());
   std::vector<glm::dvec2> corners;
-  corners.reserve(static_cast<std::size_t>((rows + 1) * (columns + 1)));
+  corners.reserve(index_at(0, rows + 1, columns + 1));
   for (int y = 0; y <= rows; ++y)
     for (int x = 0; x <= columns; ++x) corners.push_back(glm::dvec2(x, y) - gradient_at(potential, x, y, cell) / cell);
   return spread(from, corners, rows, columns);

@@ -122,7 +122,7 @@ Target photograph(const std::filesystem::path& file, const Picture& picture, con
         for (std::size_t i = 0; i < covered.parts.size(); ++i)
           along[static_cast<std::size_t>(covered.first) + i] += covered.parts[i] * toned;
       }
-      const Covered& covered = place->rows[static_cast<std::size_t>(band.first + v)];
+      const Covered& covered = place->rows[static_cast<std::size_t>(band.first) + static_cast<std::size_t>(v)];
       for (std::size_t k = 0; k < covered.parts.size(); ++k)
         for (std::size_t i = 0; i < along.size(); ++i) {
           const int across = covered.first + static_cast<int>(k), cell = static_cast<int>(i);
