@@ -143,7 +143,7 @@ TEST(Cost, IsThatOfTheThesisOverCellsWithLight)
   EXPECT_NEAR(inverse::cost_of(t, std::vector<double>{4, 2, 2, 0.01}, 10).cost, c.cost, 1e-9);
 }
 
-// Smoothing: its figure by hand, what one facet changes, that it makes the object smoother, and that none of it is no term.
+// Smoothing: its figure by hand, that it makes the object smoother, and that none of it is no term.
 
 // Two rows of three; one facet in the middle of the upper row tilted by theta against all others, which lie flat. It has 3 neighbours, each
 // unlike it alone: 1 - cos theta for itself; of its neighbours, two have 2 of their own and one has 3.
@@ -155,19 +155,6 @@ TEST(Smoothing, RoughnessIsCostN)
   slopes[1] = {0.3, -0.2};
   const double c = 1 / std::sqrt(1 + std::pow(glm::length(inverse::facet_gradient(slopes[1], layout.n)), 2));
   EXPECT_NEAR(roughness(layout, slopes), (1 - c) * (1 + 0.5 + 0.5 + 1 / 3.0) / 6, 1e-12);
-}
-
-// The sum falls by what the pull says, whichever facet moves.
-TEST(Smoothing, ThePullIsWhatAFacetChanges)
-{
-  const Layout layout = test::small(5, 4);
-  const auto slopes = test::random_slopes(layout, 0.5, 1);
-  for (std::size_t i = 0; i < slopes.size(); ++i) {
-    auto moved = slopes;
-    moved[i] = {0.1, -0.3};
-    const glm::dvec3 change = inverse::normal_of(layout, i, moved[i]) - inverse::normal_of(layout, i, slopes[i]);
-    EXPECT_NEAR(20 * (roughness(layout, moved) - roughness(layout, slopes)), -glm::dot(change, pull(layout, slopes, i)), 1e-12) << i;
-  }
 }
 
 struct Made {

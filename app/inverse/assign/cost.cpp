@@ -22,13 +22,6 @@ void for_neighbours(const glm::ivec2& facets, std::size_t facet, const F& f)
   if (row + 1 < rows) f(facet + columns);
 }
 
-double neighbours(const glm::ivec2& facets, std::size_t facet)
-{
-  double count = 0;
-  for_neighbours(facets, facet, [&](std::size_t) { ++count; });
-  return count;
-}
-
 } // namespace
 
 Cost cost_of(const Target& t, std::span<const double> z, double sent)
@@ -79,23 +72,17 @@ glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& 
   return glm::normalize(glm::dvec3(facet_gradient(slope, layout.n, layout.sines_on(facet)), -1));
 }
 
-glm::dvec3 pull(const Layout& layout, const std::vector<glm::dvec2>& slopes, std::size_t facet)
-{
-  glm::dvec3 sum(0);
-  const double own = neighbours(layout.facets, facet);
-  for_neighbours(layout.facets, facet, [&](std::size_t other) {
-    sum += (1 / own + 1 / neighbours(layout.facets, other)) * normal_of(layout, other, slopes[other]);
-  });
-  return sum;
-}
-
 double roughness(const Layout& layout, const std::vector<glm::dvec2>& slopes)
 {
   double sum = 0;
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     glm::dvec3 around(0);
-    for_neighbours(layout.facets, i, [&](std::size_t other) { around += normal_of(layout, other, slopes[other]); });
-    if (const double count = neighbours(layout.facets, i); count > 0) sum += 1 - glm::dot(normal_of(layout, i, slopes[i]), around) / count;
+    double count = 0;
+    for_neighbours(layout.facets, i, [&](std::size_t other) {
+      around += normal_of(layout, other, slopes[other]);
+      ++count;
+    });
+    if (count > 0) sum += 1 - glm::dot(normal_of(layout, i, slopes[i]), around) / count;
   }
   return sum / static_cast<double>(slopes.size());
 }

@@ -32,10 +32,6 @@ Cost mean(std::span<const Cost> costs);
 /// The unit normal out of the object.
 glm::dvec3 normal_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope);
 
-/// The sum of Cost_N over all facets falls by n . pull where a facet of normal n is put among its neighbours: their normals, times one part
-/// in the facet's neighbours and one in each neighbour's own.
-glm::dvec3 pull(const Layout& layout, const std::vector<glm::dvec2>& slopes, std::size_t facet);
-
 /// The mean of Cost_N over all facets.
 double roughness(const Layout& layout, const std::vector<glm::dvec2>& slopes);
 
