@@ -93,8 +93,10 @@ inline void describe(preset::Fields& v, Picture& p)
 inline void describe(preset::Fields& v, Receiver& r)
 {
   v.about("InverseReceiver", "A screen across the light, and its picture.");
-  v.field("distance_mm", "From the object's facets, against which it is parallel and centred.", r.distance_mm,
+  v.field("distance_mm", "From the object's facets, against which it is parallel.", r.distance_mm,
           {.unit = "mm", .bounds = preset::within(0.01, 1e6), .required = true});
+  v.field("offset_mm", "Of its middle beside that of the object: to the right and up. Pictures that are beside each other fight less.",
+          r.offset_mm, {.unit = "mm", .bounds = preset::within(-1e6, 1e6)});
   v.field("picture", "What the object casts there: a file, or an object.", r.picture, {.required = true});
   v.field("weight", "How much its picture counts beside the others'; the costs that are reported are of all pictures alike.", r.weight,
           {.bounds = preset::within(0.01, 100)});

@@ -22,7 +22,7 @@ constexpr double fov_deg = 30;
 constexpr int view_height = 600, least_width = 600, most_width = 1800;
 
 /// From one object's middle to the next: the light beside a receiver falls beside the others, too.
-double spacing(const Layout& layout) { return 1.4 * std::max(layout.size.x, layout.receiver.x); }
+double spacing(const Layout& layout) { return 1.4 * 2 * layout.half_room().x; }
 
 double column(const Layout& layout, std::size_t receiver)
 {
@@ -54,7 +54,9 @@ preset::Object screen(const std::string& name, const glm::dvec2& size, const glm
 
 preset::Object receiver_at(const Layout& layout, std::size_t receiver)
 {
-  preset::Object quad = screen("receiver", layout.receiver, {column(layout, receiver), 0, -layout.distances[receiver]});
+  preset::Object quad =
+      screen("receiver", layout.receiver,
+             glm::dvec3(column(layout, receiver), 0, -layout.distances[receiver]) + glm::dvec3(layout.offset(receiver), 0));
   quad.name = fmt::format("receiver {}", receiver + 1);
   return quad;
 }
@@ -76,9 +78,9 @@ double elevation(const Layout& layout)
 preset::Camera camera(const Layout& layout)
 {
   const double up = elevation(layout), last = layout.distances.back(), count = static_cast<double>(layout.distances.size());
-  const double wide = (count - 1) * spacing(layout) + std::max(layout.size.x, layout.receiver.x);
-  const double high = (last + layout.thickness) * std::cos(up) + std::max(layout.size.y, layout.receiver.y) * std::sin(up);
-  const double deep = (last + layout.thickness) * std::sin(up) + std::max(layout.size.y, layout.receiver.y) * std::cos(up);
+  const double wide = (count - 1) * spacing(layout) + 2 * layout.half_room().x;
+  const double high = (last + layout.thickness) * std::cos(up) + 2 * layout.half_room().y * std::sin(up);
+  const double deep = (last + layout.thickness) * std::sin(up) + 2 * layout.half_room().y * std::cos(up);
   preset::Camera camera;
   camera.fov_deg = fov_deg;
   camera.resolution = {std::clamp(static_cast<int>(view_height * wide / high), least_width, most_width), view_height};

@@ -67,6 +67,21 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens)
           .padding = 0};
 }
 
+/// Of receivers, then of the frames between them.
+std::vector<shared::DeviceReceiver> screens_of(const Layout& l)
+{
+  std::vector<shared::DeviceReceiver> screens;
+  const auto add = [&](double distance, const glm::dvec2& middle) {
+    screens.push_back({static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(distance), 1});
+  };
+  for (std::size_t j = 0; j < l.distances.size(); ++j) add(l.distances[j], l.offset(j));
+  for (std::size_t k = 0; k < l.frames.size(); ++k) {
+    const std::size_t each = l.frames.size() / (l.distances.size() - 1), j = k / each;
+    add(l.frames[k], glm::mix(l.offset(j), l.offset(j + 1), (l.frames[k] - l.distances[j]) / (l.distances[j + 1] - l.distances[j])));
+  }
+  return screens;
+}
+
 bool spreads(const Layout& l) { return l.sun_radius > 0 || l.scatter > 0 || !l.indices.empty(); }
 
 } // namespace
@@ -116,11 +131,10 @@ Judge::Judge(const compute::Context& context, const Layout& layout, const Solid&
     : context_(context), layout_(layout),
       solid_(context, solid, spreads(layout)), seed_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}
 {
-  std::vector<double> screens = layout.distances;
-  screens.insert(screens.end(), layout.frames.begin(), layout.frames.end());
+  const std::vector<shared::DeviceReceiver> screens = screens_of(layout);
   front_ = front_of(layout, screens.size());
   indices_ = compute::Buffer(context, "indices", std::vector<float>(layout.indices.begin(), layout.indices.end()));
-  distances_ = compute::Buffer(context, "screens", std::vector<float>(screens.begin(), screens.end()));
+  screens_ = compute::Buffer(context, "screens", screens);
   light_on_screens_ = compute::zeroed<std::int64_t>(context, "light on the screens", layout.cell_count() * screens.size());
   fates_ = compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{FATES} * FATE_SUMS);
   judge_ = solid_.program->kernel("judge");
@@ -139,7 +153,7 @@ void Judge::advance()
               {"normals", solid_.normals},
               {"front", front_},
               {"indices", indices_},
-              {"distances", distances_},
+              {"screens", screens_},
               {"seed", seed_},
               {"first_row", first},
               {"count", count},

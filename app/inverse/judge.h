@@ -74,7 +74,8 @@ private:
   SolidOnDevice solid_;
   shared::uint2 seed_;
   shared::DeviceFront front_{};
-  compute::Buffer<float> indices_, distances_; ///< distances of the screens: the receivers', then the frames'
+  compute::Buffer<float> indices_;
+  compute::Buffer<shared::DeviceReceiver> screens_; ///< the receivers, then the frames
   compute::Buffer<std::int64_t> light_on_screens_, fates_;
   compute::Kernel judge_;
   int row_ = 0;

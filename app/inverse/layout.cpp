@@ -69,14 +69,14 @@ double least_turn(const Layout& layout, const glm::dvec2& to, double distance)
 }
 
 /// The lit cells that lie farthest to 16 sides.
-std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& target)
+std::array<glm::dvec2, 16> farthest_lit(const Layout& layout, const Target& target, std::size_t receiver)
 {
   std::array<glm::dvec2, 16> to{};
   std::array<double, 16> farthest{};
   farthest.fill(-std::numeric_limits<double>::infinity());
   for (std::size_t c = 0; c < target.size(); ++c) {
     if (target[c] <= 0) continue;
-    const glm::dvec2 at = layout.middle_of_cell(c);
+    const glm::dvec2 at = layout.offset(receiver) + layout.middle_of_cell(c);
     for (std::size_t side = 0; side < to.size(); ++side) {
       const double angle = glm::pi<double>() * static_cast<double>(side) / 8,
                    far = glm::dot(at, glm::dvec2(std::cos(angle), std::sin(angle)));
@@ -172,7 +172,9 @@ Layout make_layout(const preset::Preset& preset)
   for (const Receiver& r : s.receivers) {
     l.distances.push_back(r.distance_mm);
     l.weights.push_back(r.weight);
+    l.offsets.emplace_back(r.offset_mm[0], r.offset_mm[1]);
   }
+  if (std::ranges::all_of(l.offsets, [](const glm::dvec2& offset) { return offset == glm::dvec2(0); })) l.offsets.clear();
   for (std::size_t j = 1; j < l.distances.size() && s.frames > 0; ++j)
     for (int k = 1; k <= s.frames; ++k) l.frames.push_back(glm::mix(l.distances[j - 1], l.distances[j], k / (s.frames + 1.0)));
   l.sun_radius = std::tan(glm::radians(s.sun_deg / 2));
@@ -220,7 +222,7 @@ void check_reach(const Layout& layout, const std::vector<Target>& targets, const
                                                             : fmt::format("an index of {:.4g} bends it by a slope of", layout.n);
   for (std::size_t j = 0; j < targets.size(); ++j) {
     const double distance = layout.distances[j];
-    const std::array<glm::dvec2, 16> lit = farthest_lit(layout, targets[j]);
+    const std::array<glm::dvec2, 16> lit = farthest_lit(layout, targets[j], j);
     const auto turn = [&](const glm::dvec2& to, double over) { return least_turn(layout, to, over); };
     const glm::dvec2 place = *std::max_element(
         lit.begin(), lit.end(), [&](const glm::dvec2& a, const glm::dvec2& b) { return turn(a, distance) < turn(b, distance); });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands where, in millimetres: facets about z = 0, light through the flat front at z = thickness, receivers at
-// z = -distance, all of them centred on the z axis. y is up, and row 0 of facets and cells is at the top: a person who looks along the
-// light sees the pictures as they are.
+// z = -distance, all of them centred on the z axis, but for receivers with an offset. y is up, and row 0 of facets and cells is at the top:
+// a person who looks along the light sees the pictures as they are.
 #pragma once
 #include "base/error.h"
 #include "inverse/settings.h"
@@ -31,18 +31,19 @@ struct Layout {
   glm::dvec2 size{100, 100}; ///< of the object
   double thickness = 10;
   glm::ivec2 facets{128, 128};
-  double n = 1.5;                 ///< index of the object over that of what is around it
-  std::vector<double> indices;    ///< of wavelengths that the light has alike, whose mean is n; empty: of one
-  glm::dvec2 receiver{100, 100};  ///< size of every receiver
-  glm::ivec2 cells{64, 64};       ///< of every receiver
-  std::vector<double> distances;  ///< ascending
-  std::vector<double> frames;     ///< distances of further screens, which the judge alone looks at; ascending
-  std::vector<double> weights;    ///< of each receiver's picture; empty: they count alike
-  double sun_radius = 0;          ///< of the sun's disc: tangent of its half angle
-  double scatter = 0;             ///< standard deviation of a slope, along x and along y
-  glm::dvec2 sines{0};            ///< of parallel light: x and y of its unit direction before the front
-  std::optional<glm::dvec3> lamp; ///< of a point light: its place
-  std::vector<Incoming> incoming; ///< of each facet; empty: straight on
+  double n = 1.5;                  ///< index of the object over that of what is around it
+  std::vector<double> indices;     ///< of wavelengths that the light has alike, whose mean is n; empty: of one
+  glm::dvec2 receiver{100, 100};   ///< size of every receiver
+  glm::ivec2 cells{64, 64};        ///< of every receiver
+  std::vector<double> distances;   ///< ascending
+  std::vector<double> frames;      ///< distances of further screens, which the judge alone looks at; ascending
+  std::vector<double> weights;     ///< of each receiver's picture; empty: they count alike
+  std::vector<glm::dvec2> offsets; ///< of each receiver's middle beside the z axis; empty: all are centred on it
+  double sun_radius = 0;           ///< of the sun's disc: tangent of its half angle
+  double scatter = 0;              ///< standard deviation of a slope, along x and along y
+  glm::dvec2 sines{0};             ///< of parallel light: x and y of its unit direction before the front
+  std::optional<glm::dvec3> lamp;  ///< of a point light: its place
+  std::vector<Incoming> incoming;  ///< of each facet; empty: straight on
 
   bool free_heights = false;                                 ///< else every facet's middle is at z = 0
   double band = std::numeric_limits<double>::infinity();     ///< no corner of a facet is further from z = 0
@@ -66,9 +67,17 @@ struct Layout {
     return {at.x * part.x - whole.x / 2, whole.y / 2 - at.y * part.y};
   }
   glm::dvec2 sines_on(std::size_t facet) const { return incoming.empty() ? glm::dvec2(0) : incoming[facet].sines; }
-  /// Of a point of a receiver, in cells from its top left corner.
+  /// Half of the rectangle about the z axis that the object and all receivers fill.
+  glm::dvec2 half_room() const
+  {
+    glm::dvec2 half = glm::max(size, receiver) / 2.0;
+    for (const glm::dvec2& offset : offsets) half = glm::max(half, glm::abs(offset) + receiver / 2.0);
+    return half;
+  }
+  glm::dvec2 offset(std::size_t of) const { return offsets.empty() ? glm::dvec2(0) : offsets[of]; }
+  /// Of a point of a receiver, from its middle, in cells from its top left corner.
   glm::dvec2 in_cells(const glm::dvec2& p) const { return {(p.x + receiver.x / 2) / cell().x, (receiver.y / 2 - p.y) / cell().y}; }
-  /// Where a point of a receiver lies; empty: beside it.
+  /// Where a point of a receiver lies, given from its middle; empty: beside it.
   std::optional<std::size_t> cell_at(const glm::dvec2& p) const
   {
     const glm::dvec2 at = in_cells(p);

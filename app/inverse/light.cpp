@@ -72,8 +72,9 @@ double worst_shadow(const Layout& layout)
   for (int i = 0; i < across * across; ++i) {
     const glm::dvec2 middle = (glm::dvec2(i % across, i / across) / (across - 1.0) - 0.5) * (layout.size - layout.facet());
     const glm::dvec2 sines = incoming_at(layout, middle).sines;
-    const glm::dvec2 straight = middle + flat_slope(sines) * layout.distances.back();
-    const glm::dvec2 slope = (glm::clamp(straight, -layout.receiver / 2.0, layout.receiver / 2.0) - middle) / layout.distances.back();
+    const glm::dvec2 straight = middle + flat_slope(sines) * layout.distances.back(), last = layout.offset(layout.distances.size() - 1);
+    const glm::dvec2 slope =
+        (glm::clamp(straight, last - layout.receiver / 2.0, last + layout.receiver / 2.0) - middle) / layout.distances.back();
     if (!reachable(slope, layout.n, sines)) return std::numeric_limits<double>::infinity();
     worst = std::max(worst, glm::dot(slope_inside(sines, layout.n), facet_gradient(slope, layout.n, sines)));
   }

@@ -156,7 +156,7 @@ private:
     for (std::size_t j = 0; j < l_.distances.size(); ++j) {
       const double t = (-l_.distances[j] - from.z) / d.z;
       if (!(t > 0) || t > to) continue;
-      const dvec2 at(from + t * d), inwards = l_.receiver / 2.0 - glm::abs(at);
+      const dvec2 at = dvec2(from + t * d) - l_.offset(j), inwards = l_.receiver / 2.0 - glm::abs(at);
       const double edge = std::min(inwards.x, inwards.y) / std::min(l_.receiver.x, l_.receiver.y);
       if (edge < 0) continue;
       if (edge < rim_width) sum += rim;
@@ -224,8 +224,10 @@ preset::Camera view_camera(const preset::Preset& preset)
   if (camera != untouched) return camera;
   const Settings& s = settings(preset);
   const auto receiver = s.receiver_mm.value_or(s.size_mm);
-  const dvec3 high(std::max(s.size_mm[0], receiver[0]) / 2, std::max(s.size_mm[1], receiver[1]) / 2, s.thickness_mm),
-      low(-high.x, -high.y, -s.receivers.back().distance_mm), middle = (low + high) / 2.0;
+  dvec3 high(s.size_mm[0] / 2, s.size_mm[1] / 2, s.thickness_mm);
+  for (const Receiver& r : s.receivers)
+    for (int axis = 0; axis < 2; ++axis) high[axis] = std::max(high[axis], std::abs(r.offset_mm[axis]) + receiver[axis] / 2);
+  const dvec3 low(-high.x, -high.y, -s.receivers.back().distance_mm), middle = (low + high) / 2.0;
   const double up = glm::radians(28.0), aside = glm::radians(-25.0);
   const dvec3 to_camera(std::sin(aside) * std::cos(up), -std::cos(aside) * std::cos(up), std::sin(up));
   camera.up = {0, 0, 1};

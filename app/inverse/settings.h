@@ -54,7 +54,8 @@ struct Picture {
 };
 
 struct Receiver {
-  double distance_mm = 100; ///< from the facets
+  double distance_mm = 100;              ///< from the facets
+  std::array<double, 2> offset_mm{0, 0}; ///< of its middle beside that of the object
   Picture picture;
   double weight = 1; ///< of its squared differences beside the other receivers'
   bool operator==(const Receiver&) const = default;
@@ -97,7 +98,7 @@ struct Settings {
   std::array<int, 2> cells{64, 64};                   ///< of every receiver, across and down
   int frames = 0;                                     ///< pictures between a receiver and the next one
   bool tolerances = false;                            ///< judge objects that are made or put up a little wrong, too
-  std::vector<Receiver> receivers{{100, Picture{}}};  ///< the nearest first
+  std::vector<Receiver> receivers{1};                 ///< the nearest first
   Thesis thesis{};                                    ///< of the method thesis
   bool operator==(const Settings&) const = default;
 };

@@ -43,6 +43,7 @@ typedef struct {
 } DeviceLayout;
 
 typedef struct {
+  float x, y; // of its middle
   float distance;
   float weight; // of its squares
 } DeviceReceiver;
@@ -97,7 +98,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceFront) == 112 && sizeof(DeviceWayOut) == 48);
-static_assert(sizeof(DeviceLayout) == 344 && sizeof(DeviceReceiver) == 8 && sizeof(DeviceIncoming) == 40);
+static_assert(sizeof(DeviceLayout) == 344 && sizeof(DeviceReceiver) == 16 && sizeof(DeviceIncoming) == 40);
 } // namespace nephroid::shared
 #endif
 

@@ -65,9 +65,9 @@ static inline float2 middle_of_facet(global const DeviceLayout* layout, uint fac
   return (float2)((column + 0.5f) * layout->facet_x - 0.5f * layout->size_x, 0.5f * layout->size_y - (row + 0.5f) * layout->facet_y);
 }
 
-static inline float2 in_cells(global const DeviceLayout* layout, float2 p)
+static inline float2 in_cells(global const DeviceLayout* layout, DeviceReceiver receiver, float2 p)
 {
-  return (float2)((p.x + 0.5f * layout->receiver_x) / layout->cell_x, (0.5f * layout->receiver_y - p.y) / layout->cell_y);
+  return (float2)((p.x - receiver.x + 0.5f * layout->receiver_x) / layout->cell_x, (0.5f * layout->receiver_y - (p.y - receiver.y)) / layout->cell_y);
 }
 
 // A facet, and what does not depend on its slope.
@@ -191,10 +191,10 @@ static inline float2 shift_of(global const DeviceLayout* layout, const Footprint
 }
 #endif
 
-static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Facet* facet, const Beams* beams, float distance)
+static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Facet* facet, const Beams* beams, DeviceReceiver receiver)
 {
   Footprint print;
-  const float way = distance + facet->height;
+  const float way = receiver.distance + facet->height;
   const float2 cell = (float2)(layout->cell_x, layout->cell_y);
   float2 variance = (float2)(0.0f); // of the slope, left in each beam
 #if NEPHROID_SPREAD
@@ -222,7 +222,7 @@ static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Fac
 #endif
   const float4 map = beams->map + way * beams->map_by_distance;
   const float2 size = (float2)(layout->facet_x, layout->facet_y), from = beams->lit.middle * size, lit = beams->lit.size * size;
-  const float2 at = in_cells(layout, facet->middle + (float2)(map.x * from.x + map.z * from.y, map.y * from.x + map.w * from.y) + beams->slope * way);
+  const float2 at = in_cells(layout, receiver, facet->middle + (float2)(map.x * from.x + map.z * from.y, map.y * from.x + map.w * from.y) + beams->slope * way);
   const float2 blur = 12.0f * way * way * variance;
   const float across = map.z * lit.y, down = map.y * lit.x;
   print.x = beam_of(at.x, fabs(map.x) * lit.x / cell.x, sqrt(across * across + blur.x) / cell.x);

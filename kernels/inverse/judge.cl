@@ -86,7 +86,7 @@ static inline void add_fate(global long* fates, uint item, int fate, float light
 
 // Rays first .. first + count - 1 of all: a jittered lattice on each facet, one facet after the other. light: [screen][cell].
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals, DeviceFront front,
-                    __global const float* indices, __global const float* distances, uint2 seed, uint first_row, uint count,
+                    __global const float* indices, __global const DeviceReceiver* screens, uint2 seed, uint first_row, uint count,
                     __global long* light, __global long* fates)
 {
   const uint item = (uint)get_global_id(0);
@@ -127,7 +127,8 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
     slope += front.scatter * on_circle(sqrt(-2.0f * log(1.0f - even_number(begin.z, ray, 2939605023u))), even_number(begin.w, ray, 2590590015u));
 #endif
   for (int j = 0; j < front.screens; ++j) {
-    const float2 hit = out.from.xy + slope * (distances[j] + out.from.z);
+    const DeviceReceiver screen = screens[j];
+    const float2 hit = out.from.xy + slope * (screen.distance + out.from.z) - (float2)(screen.x, screen.y);
     const float x = floor((hit.x + 0.5f * front.receiver_x) / front.cell_x), y = floor((0.5f * front.receiver_y - hit.y) / front.cell_y);
     if (!(x >= 0.0f && y >= 0.0f && x < (float)front.cells_x && y < (float)front.cells_y)) continue;
     const size_t cell = ((size_t)j * (size_t)front.cells_y + (size_t)y) * (size_t)front.cells_x + (size_t)x;

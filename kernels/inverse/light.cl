@@ -13,7 +13,7 @@ __kernel void add_light(__global const DeviceLayout* layout, __global const Devi
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams beams = beams_of(layout, &facet, slopes[index]);
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint print = footprint(layout, &facet, &beams, receivers[j].distance);
+    const Footprint print = footprint(layout, &facet, &beams, receivers[j]);
     Tile tile;
     FOR_CELLS(layout, print, tile)
       add_exactly(light + cell_at(layout, j, x, y), quanta_of(beams.power * PART_ON(print, tile, x, y)));
@@ -37,7 +37,7 @@ static inline float along_lack(global const DeviceLayout* layout, const Facet* f
   const Beams beams = beams_of(layout, facet, slope);
   float sum = 0.0f;
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint print = footprint(layout, facet, &beams, receivers[j].distance);
+    const Footprint print = footprint(layout, facet, &beams, receivers[j]);
     Tile tile;
     FOR_CELLS(layout, print, tile) sum += PART_ON(print, tile, x, y) * lack[cell_at(layout, j, x, y)];
   }

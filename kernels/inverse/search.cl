@@ -42,14 +42,15 @@ static SEPARATE float score(const Search* s, float2 slope)
   float sum = 0.0f;
 #endif
   for (int j = 0; j < layout->receivers; ++j) {
-    const float distance = s->receivers[j].distance, weight = s->receivers[j].weight;
-    const Footprint print = footprint(layout, &s->facet, &beams, distance);
-    const float2 away = fabs(slope - s->now.slope) * (distance + s->facet.height) / (float2)(layout->cell_x, layout->cell_y);
+    const DeviceReceiver receiver = s->receivers[j];
+    const float weight = receiver.weight;
+    const Footprint print = footprint(layout, &s->facet, &beams, receiver);
+    const float2 away = fabs(slope - s->now.slope) * (receiver.distance + s->facet.height) / (float2)(layout->cell_x, layout->cell_y);
     const float2 reach = reach_of(&print);
     bool near = away.x < 4.0f * reach.x + 4.0f && away.y < 4.0f * reach.y + 4.0f; // for sure, or it counts little
     Footprint own;
     if (near) {
-      own = footprint(layout, &s->facet, &s->now, distance);
+      own = footprint(layout, &s->facet, &s->now, receiver);
       const int4 a = cells_of(layout, &print), b = cells_of(layout, &own);
       near = a.x < b.z && b.x < a.z && a.y < b.w && b.y < a.w;
     }
@@ -153,25 +154,27 @@ __kernel void smear_x(__global const DeviceLayout* layout, __global const Device
 #define GATHER(from, i)                                                                                                                   \
   (float8)((from)[i.s0], (from)[i.s1], (from)[i.s2], (from)[i.s3], (from)[i.s4], (from)[i.s5], (from)[i.s6], (from)[i.s7])
 
-// The rows part, part + PARTS, ... of a lattice of points on the last receiver, LATTICE across and down, moved at random by `offset`: the
+// The rows part, part + PARTS, ... of a lattice of points on the receiver `aim`, LATTICE across and down, moved at random by `offset`: the
 // lowest sum of what lacks where a facet's light to each point falls, for every eighth point of a row, and the slope to it. Infinite: none
 // is reachable.
-static SEPARATE void best_of_lattice(const Search* s, global const float* smeared, float2 offset, int part, float lowest_of[8], float2 slopes[8])
+static SEPARATE void best_of_lattice(const Search* s, global const float* smeared, int aim, float2 offset, int part, float lowest_of[8], float2 slopes[8])
 {
   global const DeviceLayout* layout = s->layout;
-  const float last = s->receivers[layout->receivers - 1].distance + s->facet.height;
+  const DeviceReceiver to = s->receivers[aim];
+  const float far = to.distance + s->facet.height;
   const float2 step = (float2)(layout->receiver_x, layout->receiver_y) / (float)LATTICE,
-               corner = offset * step - 0.5f * (float2)(layout->receiver_x, layout->receiver_y);
+               corner = (float2)(to.x, to.y) + offset * step - 0.5f * (float2)(layout->receiver_x, layout->receiver_y);
   float8 lowest = (float8)(INFINITY), best_x = (float8)(0.0f), best_y = (float8)(0.0f);
   for (int k = part; k < LATTICE; k += PARTS)
     for (int i = 0; i < LATTICE; i += 8) {
-      const float y = (corner.y + (float)k * step.y - s->facet.middle.y) / last;
-      const float8 x = (corner.x + ((float)i + LANES) * step.x - s->facet.middle.x) / last;
+      const float y = (corner.y + (float)k * step.y - s->facet.middle.y) / far;
+      const float8 x = (corner.x + ((float)i + LANES) * step.x - s->facet.middle.x) / far;
       float8 sum = (float8)(0.0f);
       for (int j = 0; j < layout->receivers; ++j) {
-        const float way = s->receivers[j].distance + s->facet.height;
-        const float down = (0.5f * layout->receiver_y - (s->facet.middle.y + y * way)) / layout->cell_y;
-        const float8 across = (s->facet.middle.x + x * way + 0.5f * layout->receiver_x) / layout->cell_x;
+        const DeviceReceiver receiver = s->receivers[j];
+        const float way = receiver.distance + s->facet.height;
+        const float down = (0.5f * layout->receiver_y - (s->facet.middle.y - receiver.y + y * way)) / layout->cell_y;
+        const float8 across = (s->facet.middle.x - receiver.x + x * way + 0.5f * layout->receiver_x) / layout->cell_x;
         const int row = (int)clamp(floor(down), -1.0f, (float)layout->cells_y);
         const int8 column = convert_int8(clamp(floor(across), -1.0f, (float)layout->cells_x));
         global const float* cells = smeared + rimmed_at(layout, j, 0, row);
@@ -216,11 +219,12 @@ __kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global con
   const float begin = score(&s, now);
   float2 from = now;
   float lowest = begin;
-  const float2 offset = random4(seed, sweep, index, 0u, STREAM_FACETS).xy;
+  const float4 random = random4(seed, sweep, index, 0u, STREAM_FACETS);
+  const int aim = min((int)(random.z * (float)layout->receivers), layout->receivers - 1);
   for (int part = 0; part < PARTS; ++part) {
     float there[8];
     float2 candidates[8];
-    best_of_lattice(&s, smeared, offset, part, there, candidates);
+    best_of_lattice(&s, smeared, aim, random.xy, part, there, candidates);
     for (int lane = 0; lane < 8; ++lane) {
       if (there[lane] == INFINITY) continue;
       there[lane] = score(&s, candidates[lane]);
@@ -281,8 +285,8 @@ __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, ui
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams now = beams_of(layout, &facet, slopes[index]), then = beams_of(layout, &facet, found[i]);
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint before = footprint(layout, &facet, &now, receivers[j].distance),
-                    after = footprint(layout, &facet, &then, receivers[j].distance);
+    const Footprint before = footprint(layout, &facet, &now, receivers[j]),
+                    after = footprint(layout, &facet, &then, receivers[j]);
     claim_cells(layout, &before, j, claims, key);
     claim_cells(layout, &after, j, claims, key);
   }
@@ -327,8 +331,8 @@ __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams now = beams_of(layout, &facet, slopes[index]), then = beams_of(layout, &facet, found[i]);
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint before = footprint(layout, &facet, &now, receivers[j].distance),
-                    after = footprint(layout, &facet, &then, receivers[j].distance);
+    const Footprint before = footprint(layout, &facet, &now, receivers[j]),
+                    after = footprint(layout, &facet, &then, receivers[j]);
     if (!holds_cells(layout, &before, j, claims, key) || !holds_cells(layout, &after, j, claims, key)) return;
   }
 #if NEPHROID_SMOOTHS
@@ -343,8 +347,8 @@ __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long
   const Search s = search_of(layout, receivers, incoming, heights, slopes, lack, smoothing, index);
   if (!(score(&s, found[i]) < score(&s, slopes[index]))) return;
   for (int j = 0; j < layout->receivers; ++j) {
-    const Footprint before = footprint(layout, &facet, &now, receivers[j].distance),
-                    after = footprint(layout, &facet, &then, receivers[j].distance);
+    const Footprint before = footprint(layout, &facet, &now, receivers[j]),
+                    after = footprint(layout, &facet, &then, receivers[j]);
     move_light(layout, &before, -now.power, j, light);
     move_light(layout, &after, then.power, j, light);
     note_lack(layout, &before, receivers[j].weight, j, light, wanted, lack);

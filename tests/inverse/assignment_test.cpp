@@ -130,6 +130,27 @@ TEST(Assignment, HasThePicturesOfAnObjectThatIsNotSquare)
 }
 
 // Figures by hand: T / Tmax = 1, 1, 0, 0 and Z / Zmax = 1, 0.5, 0.5, 0.
+// Two receivers that no ray reaches both share the light: each has half, in its own tone. Wanted of all light, the dark half of a gradient
+// would get none.
+TEST(Assignment, GivesReceiversBesideEachOtherTheirParts)
+{
+  Layout layout = small_layout();
+  layout.distances = {150, 155};
+  layout.offsets = {{-80, 0}, {80, 0}};
+  Target gradient;
+  for (std::size_t c = 0; c < layout.cell_count(); ++c)
+    gradient.push_back(1 + static_cast<double>(c % static_cast<std::size_t>(layout.cells.x)));
+  const double sum = std::accumulate(gradient.begin(), gradient.end(), 0.0);
+  for (double& cell : gradient) cell /= sum;
+  const std::vector<Target> targets(2, gradient);
+  Assignment a(test::shared_context(), layout, targets, 1);
+  sweep(a, 5);
+  for (const Cost& cost : a.costs()) {
+    EXPECT_NEAR(cost.missed, 0.5, 0.1);
+    EXPECT_LT(cost.rel_l2, 0.1);
+  }
+}
+
 TEST(Cost, IsThatOfTheThesisOverCellsWithLight)
 {
   const Target t{0.5, 0.5, 0, 0};

@@ -16,6 +16,7 @@ struct Lit {
   Light light{};
   double sun = 0, scatter = 0, band = 0;
   bool free_heights = false;
+  std::vector<glm::dvec2> offsets{};
 };
 void PrintTo(const Lit& lit, std::ostream* stream) { *stream << lit.what; }
 
@@ -28,6 +29,7 @@ protected:
     made.sun_radius = lit.sun;
     made.scatter = lit.scatter;
     made.free_heights = lit.free_heights;
+    made.offsets = lit.offsets;
     for (int i = 0; i < 16 && lit.band > 0; ++i) made.indices.push_back(made.n + lit.band * ((i + 0.5) / 16 - 0.5));
     set_light(made, lit.light, "light");
     return made;
@@ -107,13 +109,13 @@ TEST_P(DeviceFacetsTest, KnowTheGradient)
   EXPECT_LT(std::sqrt(apart / norm), 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Lights, DeviceFacetsTest,
-                         testing::Values(Lit{.what = "straight"}, Lit{.what = "tilted", .light = {.tilt_deg = 20, .turn_deg = 30}},
-                                         Lit{.what = "lamp",
-                                             .light = {.type = Light::Type::point, .distance_mm = 300, .offset_mm = {20, 10}}},
-                                         Lit{.what = "sun", .sun = 0.03}, Lit{.what = "narrow sun", .sun = 0.004},
-                                         Lit{.what = "rough", .scatter = 0.01}, Lit{.what = "band", .band = 0.06},
-                                         Lit{.what = "tilted sun and band", .light = {.tilt_deg = 15}, .sun = 0.03, .band = 0.06},
-                                         Lit{.what = "free heights", .free_heights = true}));
+INSTANTIATE_TEST_SUITE_P(
+    Lights, DeviceFacetsTest,
+    testing::Values(Lit{.what = "straight"}, Lit{.what = "tilted", .light = {.tilt_deg = 20, .turn_deg = 30}},
+                    Lit{.what = "lamp", .light = {.type = Light::Type::point, .distance_mm = 300, .offset_mm = {20, 10}}},
+                    Lit{.what = "sun", .sun = 0.03}, Lit{.what = "narrow sun", .sun = 0.004}, Lit{.what = "rough", .scatter = 0.01},
+                    Lit{.what = "band", .band = 0.06},
+                    Lit{.what = "tilted sun and band", .light = {.tilt_deg = 15}, .sun = 0.03, .band = 0.06},
+                    Lit{.what = "free heights", .free_heights = true}, Lit{.what = "receivers aside", .offsets = {{-30, 10}, {25, -20}}}));
 
 } // namespace nephroid::device_facets_test

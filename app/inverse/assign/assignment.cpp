@@ -14,8 +14,8 @@
 
 namespace nephroid::inverse {
 Assignment::Assignment(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
-    : given_(layout), layout_(layout), targets_(targets), seed_(seed), weights_(picture_weights(layout, targets)),
-      heights_(layout.facet_count()), facets_(context, layout, targets, weights_)
+    : given_(layout), layout_(layout), targets_(targets), seed_(seed), tones_(targets.size(), 1.0), wanted_(targets),
+      weights_(picture_weights(layout, targets)), heights_(layout.facet_count()), facets_(context, layout, targets, weights_)
 {
   std::mt19937_64 random(seed_);
   const double last = layout.distances.back();
@@ -35,14 +35,23 @@ void Assignment::relight()
   std::vector<Incoming> incoming = std::move(layout_.incoming);
   layout_ = given_;
   layout_.incoming = std::move(incoming);
-  weights_ = picture_weights(layout_, targets_);
-  facets_.aim(layout_, targets_, weights_);
+  set_tones(tones_);
   put(std::vector(slopes()));
   residual_ = residual();
   refinement_.reset();
   converged_ = false;
   next_ = 0;
   begin_sweep();
+}
+
+void Assignment::set_tones(const std::vector<double>& tones)
+{
+  tones_ = tones;
+  wanted_ = targets_;
+  for (std::size_t j = 0; j < wanted_.size(); ++j)
+    for (double& cell : wanted_[j]) cell *= tones_[j];
+  weights_ = picture_weights(layout_, wanted_);
+  facets_.aim(layout_, wanted_, weights_);
 }
 
 void Assignment::begin_sweep()
@@ -60,16 +69,19 @@ void Assignment::put(const std::vector<glm::dvec2>& slopes)
   forget();
 }
 
-/// Free heights stand where walls are lowest for the slopes that facets have; their light falls from there. Facets in one plane see their
-/// neighbours as these are now, in whose shadows they lie.
+/// A picture is as bright as the light that reaches its receiver lets it be. Free heights stand where walls are lowest for the slopes that
+/// facets have; their light falls from there. Facets in one plane see their neighbours as these are now, in whose shadows they lie.
 void Assignment::settle()
 {
-  if (!layout_.free_heights && layout_.incoming.empty()) return;
+  std::vector<double> tones;
+  for (const std::vector<double>& light : all_light())
+    tones.push_back(std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(layout_.facet_count()));
+  set_tones(tones);
   const std::vector<glm::dvec2> now = slopes();
   if (layout_.free_heights) heights_ = heights_of(layout_, now);
   for (std::size_t i = 0; i < layout_.incoming.size(); ++i)
     layout_.incoming[i].around = facet_gradient(now[i], layout_.n, layout_.incoming[i].sines);
-  facets_.set_incoming(layout_);
+  if (!layout_.incoming.empty()) facets_.set_incoming(layout_);
   put(now);
 }
 
@@ -123,7 +135,7 @@ void Assignment::advance()
   constexpr double worth_a_sweep = 0.005; // a sweep that lowers the sum of squares by a smaller part of it is the last
   if (residual_ > (1 - worth_a_sweep) * before) {
     converged_ = layout_.smoothing > 0;
-    if (!converged_) refinement_.emplace(layout_, targets_, weights_, heights_);
+    if (!converged_) refinement_.emplace(layout_, wanted_, weights_, heights_);
   }
   begin_sweep();
 }
@@ -132,7 +144,7 @@ double Assignment::residual() const
 {
   const double rough =
       layout_.smoothing > 0 ? smoothing_weight() * static_cast<double>(layout_.facet_count()) * roughness(layout_, slopes()) : 0;
-  return weighted_squares(targets_, weights_, all_light(), layout_.facet_count()) + rough;
+  return weighted_squares(wanted_, weights_, all_light(), layout_.facet_count()) + rough;
 }
 
 double Assignment::part() const
@@ -148,6 +160,8 @@ void Assignment::state(State& state)
   state.value(next_);
   state.value(tried_);
   state.value(residual_);
+  state.items(tones_);
+  if (state.is_read()) set_tones(tones_);
   facets_.state(state);
   if (layout_.free_heights) state.items(heights_);
   for (Incoming& in : layout_.incoming) {
@@ -158,7 +172,7 @@ void Assignment::state(State& state)
   bool refines = refinement_.has_value();
   state.value(refines);
   if (state.is_read()) refinement_.reset();
-  if (refines && state.is_read()) refinement_.emplace(layout_, targets_, weights_, heights_);
+  if (refines && state.is_read()) refinement_.emplace(layout_, wanted_, weights_, heights_);
   if (refines) refinement_->state(state);
   if (!state.is_read()) return;
   facets_.set_incoming(layout_);

@@ -43,6 +43,7 @@ public:
 private:
   void begin_sweep();
   void settle();
+  void set_tones(const std::vector<double>& tones);
   void put(const std::vector<glm::dvec2>& slopes);
   void refine();
   double smoothing_weight() const;
@@ -53,6 +54,8 @@ private:
   Layout layout_; ///< the same, but that facets see their neighbours as they are
   const std::vector<Target>& targets_;
   std::uint64_t seed_;
+  std::vector<double> tones_;  ///< of each picture: the part of all light that reaches it; a state, too
+  std::vector<Target> wanted_; ///< targets in their tones
   std::vector<double> weights_;
   std::vector<double> heights_; ///< of the facets' middles; a state, too
   DeviceFacets facets_;         ///< a state, too

@@ -3,8 +3,8 @@
 
 #include "base/parallel.h"
 #include "inverse/assign/footprint.h"
-#include "inverse/assign/slope_search.h"
 #include "inverse/assign/squares.h"
+#include "inverse/bending.h"
 
 #include <algorithm>
 #include <utility>
@@ -63,6 +63,40 @@ double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::s
   return weights_[receiver] * sum;
 }
 
+/// Places on a receiver, at most 64 a side, those first where a flat facet's light helps its picture most.
+std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const
+{
+  const glm::ivec2 cells = layout_.cells, step = (cells + 63) / 64;
+  const double distance = layout_.distances[receiver],
+               lamp = layout_.lamp ? distance / (layout_.lamp->z - layout_.thickness + layout_.thickness / layout_.n) : 0;
+  const auto parts = [&](int axis, int at) { // of a beam on the middle of a cell: the first cell, and the part on each
+    const double cell = layout_.cell()[axis], width = layout_.facet()[axis] * (1 + lamp) / cell,
+                 blur = blur_width(layout_, distance) / cell;
+    const Beam beam{at + 0.5, width, blur};
+    const int reach = static_cast<int>(std::min<double>(cells[axis], std::ceil((width + blur) / 2))), first = std::max(0, at - reach);
+    std::vector<double> part;
+    for (int c = first; c <= std::min(at + reach, cells[axis] - 1); ++c) part.push_back(part_before(beam, c + 1) - part_before(beam, c));
+    return std::pair(first, part);
+  };
+  std::vector<std::pair<double, std::size_t>> places; // what it adds to the squares, and the cell
+  for (int y = step.y / 2; y < cells.y; y += step.y)
+    for (int x = step.x / 2; x < cells.x; x += step.x) {
+      const auto across = parts(0, x), down = parts(1, y);
+      double sum = 0;
+      for (std::size_t k = 0; k < down.second.size(); ++k)
+        for (std::size_t i = 0; i < across.second.size(); ++i) {
+          const std::size_t cell = index_at(across.first + static_cast<int>(i), down.first + static_cast<int>(k), cells.x);
+          sum +=
+              down.second[k] * across.second[i] * (light_[receiver][cell] - static_cast<double>(slopes_.size()) * targets_[receiver][cell]);
+        }
+      places.emplace_back(sum, index_at(x, y, cells.x));
+    }
+  std::sort(places.begin(), places.end());
+  std::vector<glm::dvec2> best;
+  for (const auto& place : places) best.push_back(layout_.middle_of_cell(place.second) + layout_.offset(receiver));
+  return best;
+}
+
 Conflicts ConflictSearch::of_pictures() const
 {
   const std::size_t count = light_.size();
@@ -73,23 +107,25 @@ Conflicts ConflictSearch::of_pictures() const
   if (count == 1) return conflicts;
 
   const std::vector<std::size_t> facets = some_facets(layout_, 32);
-  std::vector<SlopeSearch> alone; // with that picture only
-  std::vector<std::vector<Lack>> lacks;
-  for (std::size_t j = 0; j < count; ++j) {
-    std::vector<double> own(count);
-    own[j] = weights_[j];
-    alone.emplace_back(layout_, own, heights_);
-    lacks.push_back(alone[j].lacks(targets_, light_));
-  }
+  std::vector<std::vector<glm::dvec2>> best;
+  for (std::size_t j = 0; j < count; ++j) best.push_back(best_places(j));
   std::vector<std::vector<std::vector<double>>> parts(facets.size(), conflicts.between); // all 0 yet
   for_ranges(facets.size(), 16, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
       for (std::size_t j = 0; j < count; ++j) {
-        const std::optional<glm::dvec2> wish = alone[j].best(facets[i], lacks[j]);
-        if (!wish || change(facets[i], *wish, j) >= 0) continue;
+        const auto slope_to = [&](const glm::dvec2& to) {
+          return (to - layout_.middle(facets[i])) / (layout_.distances[j] + heights_[facets[i]]);
+        };
+        const auto can = [&](const glm::dvec2& to) {
+          return reachable(slope_to(to), layout_.n, layout_.sines_on(facets[i]), layout_.steepest);
+        };
+        const auto to = std::find_if(best[j].begin(), best[j].end(), can);
+        if (to == best[j].end()) continue;
+        const glm::dvec2 wish = slope_to(*to);
+        if (change(facets[i], wish, j) >= 0) continue;
         double all = 0;
         for (std::size_t k = 0; k < count; ++k)
-          if (k != j) all += parts[i][j][k] = std::max(0.0, change(facets[i], *wish, k));
+          if (k != j) all += parts[i][j][k] = std::max(0.0, change(facets[i], wish, k));
         const double light = misplaced(facets[i], j) * facet_power(layout_, facets[i], slopes_[facets[i]]);
         for (double& loss : parts[i][j]) loss *= all > 0 ? light / all : 0;
       }

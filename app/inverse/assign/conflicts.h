@@ -29,6 +29,7 @@ public:
 private:
   double misplaced(std::size_t facet, std::size_t receiver) const;
   double change(std::size_t facet, const glm::dvec2& slope, std::size_t receiver) const;
+  std::vector<glm::dvec2> best_places(std::size_t receiver) const;
 
   const Layout& layout_;
   const std::vector<Target>& targets_;

@@ -35,7 +35,10 @@ std::vector<shared::DeviceReceiver> receivers_of(const Layout& layout, std::span
 {
   std::vector<shared::DeviceReceiver> receivers;
   for (std::size_t j = 0; j < layout.distances.size(); ++j)
-    receivers.push_back({static_cast<float>(layout.distances[j]), static_cast<float>(weights[j])});
+    receivers.push_back({.x = static_cast<float>(layout.offset(j).x),
+                         .y = static_cast<float>(layout.offset(j).y),
+                         .distance = static_cast<float>(layout.distances[j]),
+                         .weight = static_cast<float>(weights[j])});
   return receivers;
 }
 
@@ -63,7 +66,8 @@ std::size_t batch_of(const Layout& l)
   std::size_t touched = 0;
   const std::size_t facet = index_at(l.facets.x / 2, l.facets.y / 2, l.facets.x);
   for (std::size_t j = 0; j < l.distances.size(); ++j) {
-    const Footprint print = footprint(l, facet, nearest_reachable(-l.middle(facet) / l.distances[j], l.n, l.sines_on(facet)), j);
+    const Footprint print =
+        footprint(l, facet, nearest_reachable((l.offset(j) - l.middle(facet)) / l.distances[j], l.n, l.sines_on(facet)), j);
     touched = std::max(touched, static_cast<std::size_t>(print.columns) * static_cast<std::size_t>(print.rows));
   }
   const std::size_t most = std::clamp<std::size_t>(l.facet_count() / 16, 1, DeviceFacets::most_in_a_batch);

@@ -177,7 +177,7 @@ Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope,
     if (layout.lamp)
       map += distance * slope_change(slope, layout.n, in.sines).by_sines * in.spread * (glm::dmat2(1) + glm::outerProduct(inside, g));
   }
-  const glm::dvec2 at = layout.in_cells(layout.middle(facet) + map * (lit.middle * size) + slope * distance),
+  const glm::dvec2 at = layout.in_cells(layout.middle(facet) - layout.offset(receiver) + map * (lit.middle * size) + slope * distance),
                    box = 12.0 * distance * distance * blur.variance;
   const auto beam = [&](int axis) {
     const int other = 1 - axis;

@@ -44,12 +44,14 @@ Smears smears_of(const Layout& layout, std::size_t receiver)
   const glm::ivec2 at = layout.cells / 2;
   const glm::dvec2 to = layout.middle_of_cell(index_at(at.x, at.y, layout.cells.x));
   const auto turn = [&](std::size_t facet) {
-    return glm::distance((to - layout.middle(facet)) / layout.distances[receiver], flat_slope(layout.sines_on(facet)));
+    return glm::distance((to + layout.offset(receiver) - layout.middle(facet)) / layout.distances[receiver],
+                         flat_slope(layout.sines_on(facet)));
   };
   const std::vector<std::size_t> facets = some_facets(layout, 64);
   const std::size_t facet =
       *std::min_element(facets.begin(), facets.end(), [&](std::size_t a, std::size_t b) { return turn(a) < turn(b); });
-  const glm::dvec2 slope = nearest_reachable((to - layout.middle(facet)) / layout.distances[receiver], layout.n, layout.sines_on(facet));
+  const glm::dvec2 slope = nearest_reachable((to + layout.offset(receiver) - layout.middle(facet)) / layout.distances[receiver], layout.n,
+                                             layout.sines_on(facet));
   const Footprint print = footprint(layout, facet, slope, receiver);
   Smears smears{{print.x0 - at.x, std::vector<double>(static_cast<std::size_t>(print.columns))},
                 {print.y0 - at.y, std::vector<double>(static_cast<std::size_t>(print.rows))}};

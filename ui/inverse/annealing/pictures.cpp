@@ -91,7 +91,7 @@ std::vector<std::vector<preset::Vec3>> lines_of(const FacetBeam& beam, const inv
     const auto box = box_of(beam.prints[j]);
     if (!box) continue;
     const auto corner = [&](double x, double y) {
-      const glm::dvec2 p = glm::dvec2(x, -y) * layout.cell() + glm::dvec2(-layout.receiver.x, layout.receiver.y) / 2.0;
+      const glm::dvec2 p = glm::dvec2(x, -y) * layout.cell() + layout.offset(j) + glm::dvec2(-layout.receiver.x, layout.receiver.y) / 2.0;
       return preset::Vec3{p.x, p.y, -layout.distances[j]};
     };
     const glm::dvec2 &low = box->low, &high = box->high;
