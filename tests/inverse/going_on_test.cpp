@@ -40,10 +40,11 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes)
   double residual = 0;
   for (const std::size_t j : {0u, 1u}) {
     const std::vector<double> light = light_of(layout, slopes, j);
-    const double facets = 32 * 32, most = *std::max_element(targets[j].begin(), targets[j].end()) * facets;
+    const double tone = std::accumulate(light.begin(), light.end(), 0.0), // as bright as its light lets it be
+        most = *std::max_element(targets[j].begin(), targets[j].end()) * tone;
     for (std::size_t c = 0; c < light.size(); ++c) {
       EXPECT_NEAR(a.light(j)[c], light[c], 1e-4);
-      residual += layout.weights[j] / (most * most) * std::pow(light[c] - facets * targets[j][c], 2);
+      residual += layout.weights[j] / (most * most) * std::pow(light[c] - tone * targets[j][c], 2);
     }
   }
   EXPECT_NEAR(a.residual(), residual, 1e-5 * residual);

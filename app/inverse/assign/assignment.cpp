@@ -18,11 +18,11 @@ Assignment::Assignment(const compute::Context& context, const Layout& layout, co
       weights_(picture_weights(layout, targets)), heights_(layout.facet_count()), facets_(context, layout, targets, weights_)
 {
   std::mt19937_64 random(seed_);
-  const double last = layout.distances.back();
   std::vector<glm::dvec2> slopes(layout.facet_count());
   for (std::size_t i = 0; i < slopes.size(); ++i) {
-    const glm::dvec2 to = (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
-    slopes[i] = nearest_reachable((to - layout.middle(i)) / last, layout.n, layout.sines_on(i), layout.steepest);
+    const std::size_t j = layout.distances.size() - 1 - i % (layout.offsets.empty() ? 1 : layout.distances.size());
+    const glm::dvec2 to = layout.offset(j) + (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
+    slopes[i] = nearest_reachable((to - layout.middle(i)) / layout.distances[j], layout.n, layout.sines_on(i), layout.steepest);
   }
   put(slopes);
   settle();
@@ -35,8 +35,9 @@ void Assignment::relight()
   std::vector<Incoming> incoming = std::move(layout_.incoming);
   layout_ = given_;
   layout_.incoming = std::move(incoming);
-  set_tones(tones_);
+  aim();
   put(std::vector(slopes()));
+  settle();
   residual_ = residual();
   refinement_.reset();
   converged_ = false;
@@ -44,12 +45,10 @@ void Assignment::relight()
   begin_sweep();
 }
 
-void Assignment::set_tones(const std::vector<double>& tones)
+void Assignment::aim()
 {
-  tones_ = tones;
-  wanted_ = targets_;
   for (std::size_t j = 0; j < wanted_.size(); ++j)
-    for (double& cell : wanted_[j]) cell *= tones_[j];
+    std::transform(targets_[j].begin(), targets_[j].end(), wanted_[j].begin(), [&](double cell) { return tones_[j] * cell; });
   weights_ = picture_weights(layout_, wanted_);
   facets_.aim(layout_, wanted_, weights_);
 }
@@ -69,20 +68,24 @@ void Assignment::put(const std::vector<glm::dvec2>& slopes)
   forget();
 }
 
-/// A picture is as bright as the light that reaches its receiver lets it be. Free heights stand where walls are lowest for the slopes that
-/// facets have; their light falls from there. Facets in one plane see their neighbours as these are now, in whose shadows they lie.
+/// Free heights stand where walls are lowest for the slopes that facets have; their light falls from there. Facets in one plane see their
+/// neighbours as these are now, in whose shadows they lie. Each picture is as bright as the light lets it be that reaches its receiver.
 void Assignment::settle()
 {
-  std::vector<double> tones;
-  for (const std::vector<double>& light : all_light())
-    tones.push_back(std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(layout_.facet_count()));
-  set_tones(tones);
-  const std::vector<glm::dvec2> now = slopes();
-  if (layout_.free_heights) heights_ = heights_of(layout_, now);
-  for (std::size_t i = 0; i < layout_.incoming.size(); ++i)
-    layout_.incoming[i].around = facet_gradient(now[i], layout_.n, layout_.incoming[i].sines);
-  if (!layout_.incoming.empty()) facets_.set_incoming(layout_);
-  put(now);
+  if (layout_.free_heights || !layout_.incoming.empty()) {
+    const std::vector<glm::dvec2> now = slopes();
+    if (layout_.free_heights) heights_ = heights_of(layout_, now);
+    for (std::size_t i = 0; i < layout_.incoming.size(); ++i)
+      layout_.incoming[i].around = facet_gradient(now[i], layout_.n, layout_.incoming[i].sines);
+    facets_.set_incoming(layout_);
+    put(now);
+  }
+  constexpr double least_tone = 0.01; // of a picture that no light has found yet
+  for (std::size_t j = 0; j < tones_.size(); ++j) {
+    const std::vector<double>& light = all_light()[j];
+    tones_[j] = std::max(least_tone, std::accumulate(light.begin(), light.end(), 0.0) / static_cast<double>(layout_.facet_count()));
+  }
+  aim();
 }
 
 /// What one facet's Cost_N, thesis (6.1), weighs in the sum: both costs are means, one over the facets, one over all cells.
@@ -161,7 +164,7 @@ void Assignment::state(State& state)
   state.value(tried_);
   state.value(residual_);
   state.items(tones_);
-  if (state.is_read()) set_tones(tones_);
+  if (state.is_read()) aim();
   facets_.state(state);
   if (layout_.free_heights) state.items(heights_);
   for (Incoming& in : layout_.incoming) {

@@ -43,7 +43,7 @@ public:
 private:
   void begin_sweep();
   void settle();
-  void set_tones(const std::vector<double>& tones);
+  void aim();
   void put(const std::vector<glm::dvec2>& slopes);
   void refine();
   double smoothing_weight() const;

@@ -7,19 +7,23 @@
 #include "inverse/bending.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace nephroid::inverse {
 
 ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& targets, const std::vector<glm::dvec2>& slopes,
                                const std::vector<double>& heights, const std::vector<std::vector<double>>& light)
-    : layout_(layout), targets_(targets), slopes_(slopes), heights_(heights), light_(light), weights_(picture_weights(layout, targets)),
-      too_much_(light)
+    : layout_(layout), slopes_(slopes), heights_(heights), light_(light), wanted_(targets), too_much_(light)
 {
-  const double sent = light_sent(layout, slopes);
-  for (std::size_t j = 0; j < light.size(); ++j)
-    for (std::size_t c = 0; c < light[j].size(); ++c)
-      too_much_[j][c] = light[j][c] > 0 ? std::max(0.0, 1 - sent * targets[j][c] / light[j][c]) : 0;
+  for (std::size_t j = 0; j < light.size(); ++j) {
+    const double all = std::accumulate(light[j].begin(), light[j].end(), 0.0);
+    for (std::size_t c = 0; c < light[j].size(); ++c) {
+      too_much_[j][c] = light[j][c] > 0 ? std::max(0.0, 1 - all * targets[j][c] / light[j][c]) : 0;
+      wanted_[j][c] *= all / static_cast<double>(layout.facet_count());
+    }
+  }
+  weights_ = picture_weights(layout, wanted_);
 }
 
 /// Part of the facet's light.
@@ -59,7 +63,7 @@ double ConflictSearch::change(std::size_t facet, const glm::dvec2& slope, std::s
   move(slope, 1);
   double sum = 0;
   for (const auto& [cell, gets] : moves)
-    sum += gets * (2 * (light_[receiver][cell] - static_cast<double>(slopes_.size()) * targets_[receiver][cell]) + gets);
+    sum += gets * (2 * (light_[receiver][cell] - static_cast<double>(slopes_.size()) * wanted_[receiver][cell]) + gets);
   return weights_[receiver] * sum;
 }
 
@@ -87,7 +91,7 @@ std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const
         for (std::size_t i = 0; i < across.second.size(); ++i) {
           const std::size_t cell = index_at(across.first + static_cast<int>(i), down.first + static_cast<int>(k), cells.x);
           sum +=
-              down.second[k] * across.second[i] * (light_[receiver][cell] - static_cast<double>(slopes_.size()) * targets_[receiver][cell]);
+              down.second[k] * across.second[i] * (light_[receiver][cell] - static_cast<double>(slopes_.size()) * wanted_[receiver][cell]);
         }
       places.emplace_back(sum, index_at(x, y, cells.x));
     }

@@ -32,10 +32,10 @@ private:
   std::vector<glm::dvec2> best_places(std::size_t receiver) const;
 
   const Layout& layout_;
-  const std::vector<Target>& targets_;
   const std::vector<glm::dvec2>& slopes_;
   const std::vector<double>& heights_;
   const std::vector<std::vector<double>>& light_;
+  std::vector<Target> wanted_; ///< in each picture's own tone
   std::vector<double> weights_;
   std::vector<std::vector<double>> too_much_; ///< [receiver][cell]: part of the light there
 };

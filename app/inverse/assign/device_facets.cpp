@@ -181,6 +181,7 @@ void DeviceFacets::aim(const Layout& layout, const std::vector<Target>& targets,
   layout_.write(std::vector{device_layout(layout)});
   receivers_.write(receivers_of(layout, weights));
   wanted_.write(wanted_of(layout, targets));
+  find_lack();
 }
 
 void DeviceFacets::find_lack()
