@@ -5,6 +5,7 @@
 #pragma once
 #include "base/error.h"
 #include "inverse/settings.h"
+#include "inverse/spectrum.h"
 
 #include <glm/glm.hpp>
 
@@ -31,18 +32,19 @@ struct Layout {
   glm::dvec2 size{100, 100}; ///< of the object
   double thickness = 10;
   glm::ivec2 facets{128, 128};
-  double n = 1.5;                 ///< index of the object over that of what is around it
-  std::vector<double> indices;    ///< of wavelengths that the light has alike, whose mean is n; empty: of one
-  glm::dvec2 receiver{100, 100};  ///< size of every receiver
-  glm::ivec2 cells{64, 64};       ///< of every receiver
-  std::vector<double> distances;  ///< ascending
-  std::vector<double> frames;     ///< distances of further screens, which the judge alone looks at; ascending
-  std::vector<double> weights;    ///< of each receiver's picture; empty: they count alike
-  double sun_radius = 0;          ///< of the sun's disc: tangent of its half angle
-  double scatter = 0;             ///< standard deviation of a slope, along x and along y
-  glm::dvec2 sines{0};            ///< of parallel light: x and y of its unit direction before the front
-  std::optional<glm::dvec3> lamp; ///< of a point light: its place
-  std::vector<Incoming> incoming; ///< of each facet; empty: straight on
+  double n = 1.5;                  ///< index of the object over that of what is around it: the mean over what counts of the light
+  std::vector<LightPart> spectrum; ///< by wavelength; empty: one index and no colours
+  bool coloured = false;           ///< what counts is luminance, else energy
+  glm::dvec2 receiver{100, 100};   ///< size of every receiver
+  glm::ivec2 cells{64, 64};        ///< of every receiver
+  std::vector<double> distances;   ///< ascending
+  std::vector<double> frames;      ///< distances of further screens, which the judge alone looks at; ascending
+  std::vector<double> weights;     ///< of each receiver's picture; empty: they count alike
+  double sun_radius = 0;           ///< of the sun's disc: tangent of its half angle
+  double scatter = 0;              ///< standard deviation of a slope, along x and along y
+  glm::dvec2 sines{0};             ///< of parallel light: x and y of its unit direction before the front
+  std::optional<glm::dvec3> lamp;  ///< of a point light: its place
+  std::vector<Incoming> incoming;  ///< of each facet; empty: straight on
 
   bool free_heights = false;                                 ///< else every facet's middle is at z = 0
   double band = std::numeric_limits<double>::infinity();     ///< no corner of a facet is further from z = 0
@@ -86,6 +88,10 @@ using Target = std::vector<double>;
 /// Reads the index. Throws bad_input where that cannot be read or is 1, where a constraint or the light leaves no picture, where facets
 /// would reach the front or the nearest receiver, and where the farthest is too far for the solid to aim at its cells.
 Layout make_layout(const preset::Preset& preset);
+
+/// Fills n, spectrum and coloured. Throws bad_input where the index cannot be read, is 1 or is not known for all of the light, and
+/// for a spectrum without power.
+void set_spectrum(Layout& layout, const preset::Preset& preset);
 
 /// A lattice of facets that speaks for all: every one up to so many a side.
 std::vector<std::size_t> some_facets(const Layout& layout, int a_side);
