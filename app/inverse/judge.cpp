@@ -198,7 +198,7 @@ void Judge::end_pair()
   finished_ = round_ >= most_rounds || targets_.empty();
   if (finished_) return;
   const Cost said = mean(costs(targets_)), noisy = mean(noise(targets_));
-  finished_ = noisy.cost <= said.cost / 2 && noisy.rel_l2 <= said.rel_l2 / 2;
+  finished_ = noisy.cost <= said.cost / 3 && noisy.rel_l2 <= said.rel_l2 / 3;
 }
 
 void Judge::read_sums()

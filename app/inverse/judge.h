@@ -55,7 +55,7 @@ struct SolidOnDevice {
 /// differ by is noise. Of a spectrum, each ray of a facet has another part. The same seed gives the same bits on any number of threads.
 class Judge {
 public:
-  /// layout and targets outlive it. Two rounds, about four million rays. Where noise is then more than half of what a figure of these
+  /// layout and targets outlive it. Two rounds, about four million rays. Where noise is then more than a third of what a figure of these
   /// targets says, two more, and so on up to eight. Throws as SolidOnDevice.
   Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
         const std::vector<Target>& targets = no_targets);

@@ -28,7 +28,7 @@ protected:
     made.sun_radius = lit.sun;
     made.scatter = lit.scatter;
     made.free_heights = lit.free_heights;
-    for (int i = 0; i < 16 && lit.band > 0; ++i) made.indices.push_back(made.n + lit.band * ((i + 0.5) / 16 - 0.5));
+    if (lit.band > 0) made.spectrum = test::band(made.n, lit.band);
     set_light(made, lit.light, "light");
     return made;
   }
