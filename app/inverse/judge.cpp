@@ -20,7 +20,7 @@ constexpr int rays_a_step = 1 << 15;
 /// Rays along one side of a facet: about two million a round.
 int rays_along(const Layout& layout) { return std::clamp(1448 / std::max(layout.facets.x, layout.facets.y), 4, 45); }
 
-constexpr int least_rounds = 2, most_rounds = 8;
+constexpr int least_rounds = 2, most_rounds = 4;
 
 shared::float4 four(const glm::dvec3& v, double w = 0)
 {

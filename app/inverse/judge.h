@@ -56,7 +56,7 @@ struct SolidOnDevice {
 class Judge {
 public:
   /// layout and targets outlive it. Two rounds, about four million rays. Where noise is then more than a third of what a figure of these
-  /// targets says, two more, and so on up to eight. Throws as SolidOnDevice.
+  /// targets says, two more. Throws as SolidOnDevice.
   Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
         const std::vector<Target>& targets = no_targets);
 
