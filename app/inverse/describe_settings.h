@@ -116,6 +116,10 @@ inline void describe(preset::Fields& v, Light& l)
     v.field("offset_mm", "Beside the middle of the object: to the right and up.", l.offset_mm,
             {.unit = "mm", .bounds = preset::within(-1e5, 1e5)});
   }
+  v.field("spectrum",
+          "Its colours: a CIE illuminant by name, or an object. Luminance counts then, and pictures are judged in colours. Without it the "
+          "light is of wavelength_nm and band_nm, energy counts, and pictures are grey.",
+          l.spectrum);
 }
 
 inline void describe(preset::Fields& v, Thesis& t)
@@ -179,7 +183,8 @@ inline void describe(preset::Fields& v, Settings& s)
           "squares. Half of it takes up to four times as many triangles.",
           s.mesh_error, {.unit = "cells", .bounds = within(0.001, 10)});
   v.field("index", "Index of refraction: a number, a file or an object.", s.index);
-  v.field("wavelength_nm", "The wavelength that the index is taken at.", s.wavelength_nm, {.unit = "nm", .bounds = within(380, 780)});
+  v.field("wavelength_nm", "The wavelength that the index is taken at, where light.spectrum does not say it.", s.wavelength_nm,
+          {.unit = "nm", .bounds = within(380, 780)});
   v.field("band_nm", "Width of the light's band about wavelength_nm: its colours leave the object apart, which blurs the pictures.",
           s.band_nm, {.unit = "nm", .bounds = within(0, 400)});
   v.field("light", "What falls on the front.", s.light);

@@ -46,7 +46,7 @@ std::string receiver_group(std::size_t receiver) { return fmt::format("inverse/r
 
 constinit const engine::Engine engine{
     .settings = settings_type,
-    .state_version = 3,
+    .state_version = 4,
     .plan = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&) -> std::unique_ptr<plan::Plan> {
       return std::make_unique<InversePlan>(make_plan(preset));
     },

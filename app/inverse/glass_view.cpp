@@ -2,7 +2,9 @@
 #include "inverse/engine.h"
 
 #include "inverse/layout.h"
+#include "optics/colour.h"
 #include "preset/read.h"
+#include "scene/materials.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
@@ -16,8 +18,6 @@ namespace {
 
 constexpr double irradiance = 1000; ///< of the sun
 constexpr double reflectance = 0.8, ground_reflectance = 0.25;
-/// Of D65's power of 380..780 nm that is luminance without its factor: the mean of y over the wavelengths, weighted by it.
-constexpr double luminous_part = 0.27;
 constexpr double fov_deg = 30;
 constexpr int view_height = 600, least_width = 600, most_width = 1800;
 
@@ -93,23 +93,39 @@ preset::Camera camera(const Layout& layout)
   return camera;
 }
 
+/// With the file, if any, where it is found from every folder.
+preset::Dispersion dispersion_of(const preset::Preset& preset)
+{
+  preset::Dispersion index = settings(preset).index;
+  const std::filesystem::path source(preset.source);
+  if (index.type == preset::Dispersion::Type::file)
+    index.file =
+        std::filesystem::absolute(scene::find_dispersion(index.file, FileFinder(source.parent_path()), Place(preset.source))).string();
+  return index;
+}
+
 } // namespace
 
-std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const std::string& name)
+std::string glass_view(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset)
 {
+  const preset::LightSpectrum spectrum = settings(preset).light.spectrum.value_or(preset::LightSpectrum{});
+  const double luminous_part = optics::to_xyz(scene::make_light_spectrum(spectrum, Place(preset.source)))[1]; // without its factor
   double brightest = 0; // over light that is spread evenly
   for (const Target& target : targets) brightest = std::max(brightest, *std::max_element(target.begin(), target.end()));
   brightest *= static_cast<double>(layout.cell_count());
   const glm::dvec3 falls = light_ray(layout, {0, 0, layout.thickness}).direction;
   preset::Preset view; // of the engine that renders: the first
-  view.description = name + " as glass over its receivers";
+  view.description = (preset.name.empty() ? "The object" : preset.name) + " as glass over its receivers";
   view.unit = preset::Preset::Unit::mm;
   view.white = irradiance * -falls.z * luminous_part * reflectance / glm::pi<double>() * brightest;
   view.stop.seconds = 60;
   preset::Scene& scene = view.scene;
   scene.camera = camera(layout);
   scene.materials["glass"].type = preset::Material::Type::dielectric;
-  scene.materials["glass"].dispersion.n = layout.n;
+  if (layout.coloured)
+    scene.materials["glass"].dispersion = dispersion_of(preset);
+  else
+    scene.materials["glass"].dispersion.n = layout.n;
   scene.materials["receiver"].reflectance.value = reflectance;
   scene.materials["ground"].reflectance.value = ground_reflectance;
   scene.objects.push_back(ground(layout));
@@ -119,6 +135,7 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   }
   preset::Light sun;
   sun.type = preset::Light::Type::directional;
+  sun.spectrum = spectrum;
   sun.irradiance_w_m2 = irradiance;
   sun.direction = scene::to_vec3(falls);
   scene.lights.push_back(sun);

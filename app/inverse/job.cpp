@@ -34,7 +34,8 @@ constexpr double judge_part = 0.1;
 std::string material_of(const Settings& s, double n)
 {
   const std::string name = s.index.type == preset::Dispersion::Type::file ? s.index.file + ", " : "";
-  return fmt::format("{}index of refraction {:.6g} at {} nm", name, n, s.wavelength_nm);
+  return fmt::format("{}index of refraction {:.6g} {}", name, n,
+                     s.light.spectrum ? "in the mean over the light's luminance" : fmt::format("at {} nm", s.wavelength_nm));
 }
 
 /// As the preset says. The layout and the targets outlive it.
@@ -193,7 +194,7 @@ private:
   void begin_judging()
   {
     solid_ = std::make_shared<const Solid>(method_->solid());
-    judge_.emplace(context_, layout_, *solid_, preset_.seed);
+    judge_.emplace(context_, layout_, *solid_, preset_.seed, targets_);
     if (settings(preset_).tolerances) tolerances_.emplace(context_, layout_, targets_, *solid_, preset_.seed);
     conflict_known_ = false;
   }
@@ -213,6 +214,13 @@ private:
   /// As judged where that is done, else as believed.
   const std::vector<double>& light(std::size_t receiver) const { return judged() ? judge_->light(receiver) : method_->light(receiver); }
 
+  /// Of a receiver or, once it is judged, of a frame behind them. In colours where the judge has them.
+  std::shared_ptr<const job::Picture> picture_of(std::size_t screen, double most) const
+  {
+    if (judged() && layout_.coloured) return coloured_picture(judge_->colours(screen), most, layout_);
+    return received_picture(screen < targets_.size() ? light(screen) : judge_->frame(screen - targets_.size()), most, layout_);
+  }
+
   /// Part of all light, in a cell.
   double brightest(std::size_t receiver) const { return *std::max_element(targets_[receiver].begin(), targets_[receiver].end()); }
 
@@ -221,8 +229,7 @@ private:
     std::vector<std::vector<Captioned>> columns;
     const std::vector<Cost> costs = judged() ? judge_->costs(targets_) : method_->costs();
     for (std::size_t j = 0; j < targets_.size(); ++j) {
-      const auto wanted = grey_picture(targets_[j], 1 / brightest(j), layout_.cells),
-                 received = received_picture(light(j), brightest(j), layout_);
+      const auto wanted = grey_picture(targets_[j], 1 / brightest(j), layout_.cells), received = picture_of(j, brightest(j));
       columns.push_back({{wanted, fmt::format("wanted at {} mm", layout_.distances[j])},
                          {received, fmt::format("cast: cost {:.3f}", costs[j].cost)},
                          {difference_picture(*wanted, *received), "red: too much, blue: too little"}});
@@ -279,17 +286,17 @@ private:
   {
     if (layout_.frames.empty()) return;
     snapshot.curves.push_back({"frames", {"frame", "distance_mm"}, {}});
-    const auto add = [&](double distance, std::span<const double> light, double most) {
+    const auto add = [&](double distance, std::size_t screen, double most) {
       const std::size_t number = snapshot.curves.back().rows.size() + 1;
       snapshot.curves.back().rows.push_back({static_cast<double>(number), distance});
-      snapshot.pictures.push_back({fmt::format("frame_{:04}", number), received_picture(light, most, layout_)});
+      snapshot.pictures.push_back({fmt::format("frame_{:04}", number), picture_of(screen, most)});
     };
     const std::size_t gaps = layout_.distances.size() - 1, between = layout_.frames.size() / gaps;
     for (std::size_t j = 0; j < layout_.distances.size(); ++j) {
-      add(layout_.distances[j], judge_->light(j), brightest(j));
+      add(layout_.distances[j], j, brightest(j));
       for (std::size_t k = 0; k < between && j < gaps; ++k) {
         const double part = static_cast<double>(k + 1) / static_cast<double>(between + 1);
-        add(layout_.frames[j * between + k], judge_->frame(j * between + k), (1 - part) * brightest(j) + part * brightest(j + 1));
+        add(layout_.frames[j * between + k], targets_.size() + j * between + k, (1 - part) * brightest(j) + part * brightest(j + 1));
       }
     }
   }
@@ -319,7 +326,11 @@ private:
   {
     const std::vector<Cost> believed = method_->costs(), judged = this->judged() ? judge_->costs(targets_) : std::vector<Cost>();
     add_cost(snapshot, "believed", mean(believed));
-    if (this->judged()) add_cost(snapshot, "judged", mean(judged));
+    if (this->judged()) {
+      add_cost(snapshot, "judged", mean(judged));
+      const Cost noise = mean(judge_->noise(targets_));
+      snapshot.scalars.insert(snapshot.scalars.end(), {{"judged", "noise_cost", noise.cost}, {"judged", "noise_rel_l2", noise.rel_l2}});
+    }
     add_receivers(snapshot, believed, judged);
     if (conflicts_) add_conflicts(snapshot);
     if (!this->judged()) return;
@@ -352,8 +363,8 @@ private:
     add("heights.exr", write_height_exr);
     add("heights.png", write_height_png);
     if (!layout_.lamp)
-      snapshot.files.push_back({glass_view_file, [view = glass_view(layout_, targets_, preset_.name.empty() ? "The object" : preset_.name)](
-                                                     ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
+      snapshot.files.push_back(
+          {glass_view_file, [view = glass_view(layout_, targets_, preset_)](ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
     const std::string tolerances = tolerances_ ? tolerance_table(judge_->costs(targets_), tolerances_->rows()) : "";
     add("workshop.md",
         [material = material_of(settings(preset_), layout_.n), tolerances](const Layout& of, const Solid& solid, ByteSink& to) {
@@ -365,7 +376,7 @@ private:
     };
     if (tolerances_) add_text("tolerance.csv", tolerance_csv(judge_->costs(targets_), tolerances_->rows()));
     std::vector<std::shared_ptr<const job::Picture>> cast;
-    for (std::size_t j = 0; j < targets_.size(); ++j) cast.push_back(received_picture(light(j), brightest(j), layout_));
+    for (std::size_t j = 0; j < targets_.size(); ++j) cast.push_back(picture_of(j, brightest(j)));
     add("print.svg", [cast, name = preset_.name.empty() ? "The object" : preset_.name](const Layout& of, const Solid&, ByteSink& to) {
       const std::string page = print_page(of, cast, name);
       to.write(std::as_bytes(std::span(page)));

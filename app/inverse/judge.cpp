@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace nephroid::inverse {
 
@@ -16,9 +17,10 @@ constexpr std::size_t group = 32;
 /// A step's rays, some milliseconds of two cores.
 constexpr int rays_a_step = 1 << 15;
 
-/// Rays along one side of a facet: about four million in all, and so many a facet that a cell's light is known to a few percent, since the
-/// brightest cell scales the cost: a million judge `dispersion` at .016, four at .011.
-int rays_along(const Layout& layout) { return std::clamp(2048 / std::max(layout.facets.x, layout.facets.y), 5, 64); }
+/// Rays along one side of a facet: about two million a round.
+int rays_along(const Layout& layout) { return std::clamp(1448 / std::max(layout.facets.x, layout.facets.y), 4, 45); }
+
+constexpr int least_rounds = 2, most_rounds = 4;
 
 shared::float4 four(const glm::dvec3& v, double w = 0)
 {
@@ -36,6 +38,14 @@ std::vector<shared::float4> normals_of(const Solid& solid)
     normals.push_back(four(glm::normalize(glm::cross(b - a, c - a)), static_cast<double>(solid.parts[i])));
   }
   return normals;
+}
+
+/// A step through so many parts that meets each, and spreads neighbours: about the fifth power of 1 / g (see judge.cl).
+std::uint32_t part_step(int parts)
+{
+  int step = std::max(1, static_cast<int>(0.5316 * parts));
+  while (std::gcd(step, parts) != 1) ++step;
+  return static_cast<std::uint32_t>(step);
 }
 
 shared::DeviceFront front_of(const Layout& l, std::size_t screens)
@@ -63,7 +73,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens)
           .cells_x = l.cells.x,
           .cells_y = l.cells.y,
           .screens = static_cast<int>(screens),
-          .index_count = static_cast<int>(l.indices.size()),
+          .part_step = l.spectrum.empty() ? 0 : part_step(rays_along(l) * rays_along(l)),
           .padding = 0};
 }
 
@@ -82,11 +92,28 @@ std::vector<shared::DeviceReceiver> screens_of(const Layout& l)
   return screens;
 }
 
-bool spreads(const Layout& l) { return l.sun_radius > 0 || l.scatter > 0 || !l.indices.empty(); }
+bool spreads(const Layout& l) { return l.sun_radius > 0 || l.scatter > 0 || !l.spectrum.empty(); }
+
+/// As the kernel has them, each over its share of the rays.
+std::vector<shared::float4> parts_of(const Layout& l, int count)
+{
+  std::vector<shared::float4> parts;
+  if (!l.spectrum.empty())
+    for (const LightPart& part : equal_parts(l.spectrum, static_cast<std::size_t>(count))) {
+      const glm::dvec3 xyz = part.xyz * static_cast<double>(count);
+      parts.push_back({static_cast<float>(part.n), static_cast<float>(xyz.x), static_cast<float>(xyz.y), static_cast<float>(xyz.z)});
+    }
+  return parts;
+}
+
+std::size_t channels(const Layout& l) { return l.coloured ? 3 : 1; }
+
+/// The parallelogram's law: with noise, each half is farther from what is wanted than their mean is, by its square.
+double noise_of(double whole, double a, double b) { return std::sqrt(std::max(0.0, (a * a + b * b) / 2 - whole * whole)); }
 
 } // namespace
 
-SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads)
+SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads, bool coloured)
 {
   const scene::Bvh bvh = scene::build_bvh(solid.mesh);
   nodes = compute::Buffer(context, "solid's tree", bvh.nodes);
@@ -95,12 +122,13 @@ SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid
   root = bvh.root;
   compute::Defines defines = scene::tree_defines(bvh);
   defines.insert_or_assign("NEPHROID_SPREAD", std::string(1, spreads ? '1' : '0'));
+  defines.insert_or_assign("NEPHROID_CHANNELS", std::string(1, coloured ? '3' : '1'));
   program.emplace(context, "inverse/judge.cl", defines);
 }
 
 std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, double n, const std::vector<Ray>& rays)
 {
-  SolidOnDevice on_device(context, solid, false);
+  SolidOnDevice on_device(context, solid, false, false);
   std::vector<shared::float4> from, directions;
   for (const Ray& ray : rays) {
     from.push_back(four(ray.from));
@@ -127,72 +155,130 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
   return made;
 }
 
-Judge::Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed)
-    : context_(context), layout_(layout),
-      solid_(context, solid, spreads(layout)), seed_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}
+Judge::Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
+             const std::vector<Target>& targets)
+    : context_(context), layout_(layout), targets_(targets),
+      solid_(context, solid, spreads(layout), layout.coloured), seed_{static_cast<std::uint32_t>(seed),
+                                                                      static_cast<std::uint32_t>(seed >> 32)}
 {
   const std::vector<shared::DeviceReceiver> screens = screens_of(layout);
   front_ = front_of(layout, screens.size());
-  indices_ = compute::Buffer(context, "indices", std::vector<float>(layout.indices.begin(), layout.indices.end()));
+  parts_ = compute::Buffer(context, "parts of the spectrum", parts_of(layout, front_.along * front_.along));
   screens_ = compute::Buffer(context, "screens", screens);
-  light_on_screens_ = compute::zeroed<std::int64_t>(context, "light on the screens", layout.cell_count() * screens.size());
+  for (auto& half : light_on_screens_)
+    half = compute::zeroed<std::int64_t>(context, "light on the screens", layout.cell_count() * screens.size() * channels(layout));
   fates_ = compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{FATES} * FATE_SUMS);
   judge_ = solid_.program->kernel("judge");
   light_.assign(screens.size(), std::vector<double>(layout.cell_count()));
+  halves_.fill(light_);
+}
+
+double Judge::part() const
+{
+  const int rounds = std::max(least_rounds, (round_ + 2) / 2 * 2);
+  return finished_ ? 1 : (round_ + static_cast<double>(row_) / layout_.facets.y) / rounds;
 }
 
 void Judge::advance()
 {
   const int rays_a_row = layout_.facets.x * front_.along * front_.along;
   const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_step / rays_a_row));
-  const auto first = static_cast<std::uint32_t>(row_), count = static_cast<std::uint32_t>(rows * rays_a_row);
+  const auto first = static_cast<std::uint32_t>(row_), count = static_cast<std::uint32_t>(rows * rays_a_row),
+             turn = static_cast<std::uint32_t>(round_);
   judge_.run(count, group,
              {{"nodes", solid_.nodes},
               {"blocks", solid_.blocks},
               {"root", solid_.root},
               {"normals", solid_.normals},
               {"front", front_},
-              {"indices", indices_},
+              {"parts", parts_},
               {"screens", screens_},
               {"seed", seed_},
+              {"turn", turn},
               {"first_row", first},
               {"count", count},
-              {"light", light_on_screens_},
+              {"light", light_on_screens_[turn % 2]},
               {"fates", fates_}});
   context_.finish();
   row_ += rows;
-  if (finished()) read_sums();
+  if (row_ < layout_.facets.y) return;
+  row_ = 0;
+  if (++round_ % 2 == 0) end_pair();
+}
+
+void Judge::end_pair()
+{
+  read_sums();
+  finished_ = round_ >= most_rounds || targets_.empty();
+  if (finished_) return;
+  const Cost said = mean(costs(targets_)), noisy = mean(noise(targets_));
+  finished_ = noisy.cost <= said.cost / 3 && noisy.rel_l2 <= said.rel_l2 / 3;
 }
 
 void Judge::read_sums()
 {
-  const std::vector<std::int64_t> light = light_on_screens_.read(), fates = fates_.read();
+  const std::size_t cells = layout_.cell_count(), screen = cells * channels(layout_);
+  for (std::size_t half = 0; half < 2; ++half) {
+    const std::vector<std::int64_t> light = light_on_screens_[half].read();
+    for (std::size_t j = 0; j < light_.size(); ++j)
+      for (std::size_t c = 0; c < cells; ++c) halves_[half][j][c] = static_cast<double>(light[j * screen + c]) / RAY_QUANTA * 2 / round_;
+  }
   for (std::size_t j = 0; j < light_.size(); ++j)
-    for (std::size_t c = 0; c < light_[j].size(); ++c) light_[j][c] = static_cast<double>(light[j * light_[j].size() + c]) / RAY_QUANTA;
+    for (std::size_t c = 0; c < cells; ++c) light_[j][c] = (halves_[0][j][c] + halves_[1][j][c]) / 2;
+  const std::vector<std::int64_t> fates = fates_.read();
   std::array<std::int64_t, FATES> sums{};
   for (std::size_t i = 0; i < fates.size(); ++i) sums[i % FATES] += fates[i];
-  const auto facets = [&](int fate) { return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA; };
+  const auto facets = [&](int fate) { return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA / round_; };
   sum_ = {facets(FATE_REFLECTED), facets(FATE_LOST), facets(FATE_SENT), facets(FATE_BY_WALLS)};
+}
+
+std::vector<glm::dvec3> Judge::colours(std::size_t screen) const
+{
+  const std::size_t cells = layout_.cell_count();
+  std::vector<glm::dvec3> xyz(cells);
+  for (const auto& half : light_on_screens_) {
+    const std::vector<std::int64_t> light = half.read();
+    const auto channel = [&](std::size_t which, std::size_t c) {
+      return static_cast<double>(light[(3 * screen + which) * cells + c]) / RAY_QUANTA / round_;
+    };
+    for (std::size_t c = 0; c < cells; ++c) xyz[c] += glm::dvec3(channel(1, c), channel(0, c), channel(2, c));
+  }
+  return xyz;
 }
 
 Fates Judge::fates() const
 {
-  const double all = std::max(1.0, static_cast<double>(row_) * layout_.facets.x);
+  const double all = static_cast<double>(layout_.facet_count());
   return {sum_.reflected / all, sum_.lost / all, sum_.sent / all, sum_.by_walls / all};
 }
 
 std::vector<Cost> Judge::costs(const std::vector<Target>& targets) const { return costs_of(targets, light_, sum_.sent); }
 
+std::vector<Cost> Judge::noise(const std::vector<Target>& targets) const
+{
+  std::vector<Cost> noise = costs(targets);
+  const std::vector<Cost> a = costs_of(targets, halves_[0], sum_.sent), b = costs_of(targets, halves_[1], sum_.sent);
+  for (std::size_t j = 0; j < noise.size(); ++j)
+    noise[j] = {noise_of(noise[j].cost, a[j].cost, b[j].cost), noise_of(noise[j].cost_all, a[j].cost_all, b[j].cost_all),
+                noise_of(noise[j].rel_l2, a[j].rel_l2, b[j].rel_l2), std::abs(a[j].missed - b[j].missed) / 2};
+  return noise;
+}
+
 void Judge::state(State& state)
 {
-  std::vector<std::int64_t> light = light_on_screens_.read(), fates = fates_.read();
   state.value(row_);
-  state.items(light);
+  state.value(round_);
+  state.value(finished_);
+  for (auto& half : light_on_screens_) {
+    std::vector<std::int64_t> light = half.read();
+    state.items(light);
+    if (state.is_read()) half.write(light);
+  }
+  std::vector<std::int64_t> fates = fates_.read();
   state.items(fates);
   if (!state.is_read()) return;
-  light_on_screens_.write(light);
   fates_.write(fates);
-  read_sums();
+  if (finished_) read_sums();
 }
 
 namespace {

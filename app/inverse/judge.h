@@ -9,6 +9,7 @@
 #include "kernels/inverse/facet_types.h"
 #include "scene/bvh.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -41,8 +42,8 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
 
 /// What kernels need of a solid.
 struct SolidOnDevice {
-  /// spreads: light has a width, or a band of wavelengths. Throws failed where the device has not enough memory.
-  SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads);
+  /// spreads: light has a width, or many wavelengths. Throws failed where the device has not enough memory.
+  SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads, bool coloured);
 
   compute::Buffer<float> nodes, blocks;
   compute::Buffer<shared::float4> normals; ///< of each triangle; w: its part
@@ -50,37 +51,52 @@ struct SolidOnDevice {
   std::optional<compute::Program> program; ///< inverse/judge.cl
 };
 
-/// Rays fall evenly on all facets, a jittered lattice on each. The same seed gives the same bits on any number of threads.
+/// Rays fall evenly on all facets, a jittered lattice on each, in rounds. Rounds are drawn apart, so that what those of even and odd number
+/// differ by is noise. Of a spectrum, each ray of a facet has another part. The same seed gives the same bits on any number of threads.
 class Judge {
 public:
-  /// layout outlives it. Throws as SolidOnDevice.
-  Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed);
+  /// layout and targets outlive it. Two rounds, about four million rays. Where noise is then more than a third of what a figure of these
+  /// targets says, two more. Throws as SolidOnDevice.
+  Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
+        const std::vector<Target>& targets = no_targets);
 
   void advance(); ///< a few rows of facets; light and fates are there once it has finished
-  bool finished() const { return row_ >= layout_.facets.y; }
-  double part() const { return static_cast<double>(row_) / layout_.facets.y; }
-  const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; } ///< of each cell, in what falls on a facet
+  bool finished() const { return finished_; }
+  double part() const; ///< of the rounds that it knows of
+  /// What counts in each cell, in what falls on a facet: luminance of coloured light, else energy.
+  const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; }
   const std::vector<double>& frame(std::size_t i) const { return light_[layout_.distances.size() + i]; } ///< the same of layout.frames
+  /// XYZ of each cell, y being light(). Of coloured light; screens are the receivers, then the frames.
+  std::vector<glm::dvec3> colours(std::size_t screen) const;
   Fates fates() const;
   std::vector<Cost> costs(const std::vector<Target>& targets) const; ///< of each receiver
+  /// How much of each figure is noise: without it, it would be the root of the difference of the squares.
+  std::vector<Cost> noise(const std::vector<Target>& targets) const;
 
   void state(State& state);
 
 private:
+  static inline const std::vector<Target> no_targets{};
+
+  void end_pair(); ///< of rounds
   void read_sums();
 
   compute::Context context_;
   const Layout& layout_;
+  const std::vector<Target>& targets_;
   SolidOnDevice solid_;
   shared::uint2 seed_;
   shared::DeviceFront front_{};
-  compute::Buffer<float> indices_;
-  compute::Buffer<shared::DeviceReceiver> screens_; ///< the receivers, then the frames
-  compute::Buffer<std::int64_t> light_on_screens_, fates_;
+  compute::Buffer<shared::float4> parts_;                         ///< of the spectrum: index and XYZ
+  compute::Buffer<shared::DeviceReceiver> screens_;               ///< the receivers, then the frames
+  std::array<compute::Buffer<std::int64_t>, 2> light_on_screens_; ///< of even and of odd rounds: [screen][y, x, z][cell]
+  compute::Buffer<std::int64_t> fates_;
   compute::Kernel judge_;
-  int row_ = 0;
-  Fates sum_;                              ///< in facets; of all rows
-  std::vector<std::vector<double>> light_; ///< [screen][cell], in facets; of all rows
+  int row_ = 0, round_ = 0;
+  bool finished_ = false;
+  Fates sum_;                                              ///< in facets; of all rows and rounds
+  std::vector<std::vector<double>> light_;                 ///< [screen][cell], in facets
+  std::array<std::vector<std::vector<double>>, 2> halves_; ///< the same of even and odd rounds
 };
 
 } // namespace nephroid::inverse

@@ -2,43 +2,15 @@
 #include "inverse/layout.h"
 
 #include "inverse/bending.h"
-#include "scene/materials.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace nephroid::inverse {
 namespace {
-
-/// Of wavelengths that stand for the light's band.
-constexpr int band_samples = 16;
-
-void read_index(const preset::Preset& preset, Layout& layout)
-{
-  const Settings& s = settings(preset);
-  const Place where = Place(preset.source) / "inverse" / "index";
-  const FileFinder finder(std::filesystem::path(preset.source).parent_path());
-  const optics::DispersionCurve curve = scene::make_curve(s.index, finder, where);
-  const int count = s.band_nm > 0 ? band_samples : 1;
-  for (int i = 0; i < count; ++i) {
-    const double nm = s.wavelength_nm + s.band_nm * ((i + 0.5) / count - 0.5);
-    const optics::IndexSample sample = curve.sample(nm, scene::outside_policy(s.index.outside));
-    if (!sample.n) throw bad_input(where, fmt::format("has no n at {} nm", nm), "expected another wavelength_nm or a narrower band_nm");
-    if (std::abs(*sample.n - 1) < 1e-3)
-      throw bad_input(where, fmt::format("is {:.5f} at {} nm, which bends hardly any light", *sample.n, nm),
-                      "expected one that differs from 1 by at least 0.001");
-    layout.indices.push_back(*sample.n);
-  }
-  layout.n = std::accumulate(layout.indices.begin(), layout.indices.end(), 0.0) / count;
-  if (std::all_of(layout.indices.begin(), layout.indices.end(), [&](double n) { return n == layout.indices.front(); })) {
-    layout.n = layout.indices.front();
-    layout.indices.clear();
-  }
-}
 
 /// The most that a facet can reach from z = 0 at its corners: the normal of the steepest one is as far from the light inside as that of
 /// the steepest one for light straight on.
@@ -166,7 +138,7 @@ Layout make_layout(const preset::Preset& preset)
   l.size = {s.size_mm[0], s.size_mm[1]};
   l.thickness = s.thickness_mm;
   l.facets = {s.facets[0], s.facets[1]};
-  read_index(preset, l);
+  set_spectrum(l, preset);
   l.receiver = s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1]) : l.size;
   l.cells = {s.cells[0], s.cells[1]};
   for (const Receiver& r : s.receivers) {

@@ -5,6 +5,7 @@
 #pragma once
 #include "base/error.h"
 #include "inverse/settings.h"
+#include "inverse/spectrum.h"
 
 #include <glm/glm.hpp>
 
@@ -31,8 +32,9 @@ struct Layout {
   glm::dvec2 size{100, 100}; ///< of the object
   double thickness = 10;
   glm::ivec2 facets{128, 128};
-  double n = 1.5;                  ///< index of the object over that of what is around it
-  std::vector<double> indices;     ///< of wavelengths that the light has alike, whose mean is n; empty: of one
+  double n = 1.5;                  ///< index of the object over that of what is around it: the mean over what counts of the light
+  std::vector<LightPart> spectrum; ///< by wavelength; empty: one index and no colours
+  bool coloured = false;           ///< what counts is luminance, else energy
   glm::dvec2 receiver{100, 100};   ///< size of every receiver
   glm::ivec2 cells{64, 64};        ///< of every receiver
   std::vector<double> distances;   ///< ascending
@@ -95,6 +97,10 @@ using Target = std::vector<double>;
 /// Reads the index. Throws bad_input where that cannot be read or is 1, where a constraint or the light leaves no picture, where facets
 /// would reach the front or the nearest receiver, and where the farthest is too far for the solid to aim at its cells.
 Layout make_layout(const preset::Preset& preset);
+
+/// Fills n, spectrum and coloured. Throws bad_input where the index cannot be read, is 1 or is not known for all of the light, and
+/// for a spectrum without power.
+void set_spectrum(Layout& layout, const preset::Preset& preset);
 
 /// A lattice of facets that speaks for all: every one up to so many a side.
 std::vector<std::size_t> some_facets(const Layout& layout, int a_side);

@@ -152,7 +152,7 @@ private:
   /// The light of all receivers on the way.
   dvec3 sheets(const dvec3& from, const dvec3& d, double to) const
   {
-    double sum = 0;
+    dvec3 sum(0);
     for (std::size_t j = 0; j < l_.distances.size(); ++j) {
       const double t = (-l_.distances[j] - from.z) / d.z;
       if (!(t > 0) || t > to) continue;
@@ -160,7 +160,10 @@ private:
       const double edge = std::min(inwards.x, inwards.y) / std::min(l_.receiver.x, l_.receiver.y);
       if (edge < 0) continue;
       if (edge < rim_width) sum += rim;
-      if (const auto cell = l_.cell_at(at)) sum += empty_sheet + static_cast<double>(object_.receivers[j]->rgb[3 * *cell]);
+      if (const auto cell = l_.cell_at(at)) {
+        const float* const rgb = object_.receivers[j]->rgb.data() + 3 * *cell;
+        sum += empty_sheet + glm::max(dvec3(rgb[0], rgb[1], rgb[2]), 0.0);
+      }
     }
     return sum * dvec3(1, 0.97, 0.9);
   }

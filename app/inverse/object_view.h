@@ -14,7 +14,7 @@ struct ObjectView {
   std::span<const glm::dvec2> slopes; ///< of each facet
   std::span<const double> heights;    ///< of their middles
   bool smooth = false;                ///< normals go over from facet to facet
-  /// What each receiver shows: a grey picture of its cells.
+  /// What each receiver shows: a picture of its cells.
   std::vector<std::shared_ptr<const job::Picture>> receivers;
 };
 

@@ -32,38 +32,40 @@ std::uint64_t triangles_of(const Settings& s, const Layout& l)
 
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
 {
-  const bool blurred = l.sun_radius > 0 || l.scatter > 0 || !l.indices.empty(), straight = l.incoming.empty();
+  const bool blurred = l.sun_radius > 0 || l.scatter > 0 || !l.spectrum.empty(), straight = l.incoming.empty();
   const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
              lens = s.method == Settings::Method::lens;
   const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
                                        counted(l.distances.size(), "receiver"), usable_slope(l));
   const std::string chosen = fmt::format("inverse.method is '{}'", preset::word(s.method));
   const bool anneals = thesis && s.thesis.cycles > 0, corrects = thesis && s.thesis.corrections > 0;
-  return {{"assign", assign, assign ? what : chosen},
-          {"sampling", thesis, thesis ? what : chosen},
-          {"annealing", anneals,
-           anneals  ? "sizes, then extension and overshoot"
-           : thesis ? "inverse.thesis.cycles is 0"
-                    : chosen},
-          {"correction", corrects,
-           corrects ? "of intensities, cell by cell"
-           : thesis ? "inverse.thesis.corrections is 0"
-                    : chosen},
-          {"blur", blurred,
-           blurred ? "the sun's disc, a rough surface or dispersion, in every footprint"
-                   : "inverse.sun_deg and scatter_deg are 0, and the light has one index"},
-          {"smoothing", assign && l.smoothing > 0,
-           !assign           ? "the method 'assign' alone has it"
-           : l.smoothing > 0 ? "facets unlike their neighbours cost something"
-                             : "inverse.smoothing_normals is 0: no term"},
-          {"heights", l.free_heights,
-           l.free_heights ? "facets move along z to where their walls are lowest"
-           : lens         ? "a smooth surface has no walls"
-                          : "inverse.heights is flat: nothing is solved"},
-          {"transport", lens, lens ? what : chosen},
-          {"incoming", !straight,
-           straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
-          {"judge", true, "rays through the finished solid, walls and all"}};
+  return {
+      {"assign", assign, assign ? what : chosen},
+      {"sampling", thesis, thesis ? what : chosen},
+      {"annealing", anneals,
+       anneals  ? "sizes, then extension and overshoot"
+       : thesis ? "inverse.thesis.cycles is 0"
+                : chosen},
+      {"correction", corrects,
+       corrects ? "of intensities, cell by cell"
+       : thesis ? "inverse.thesis.corrections is 0"
+                : chosen},
+      {"blur", blurred,
+       blurred ? "the sun's disc, a rough surface or dispersion, in every footprint"
+               : "inverse.sun_deg and scatter_deg are 0, and the light has one index"},
+      {"smoothing", assign && l.smoothing > 0,
+       !assign           ? "the method 'assign' alone has it"
+       : l.smoothing > 0 ? "facets unlike their neighbours cost something"
+                         : "inverse.smoothing_normals is 0: no term"},
+      {"heights", l.free_heights,
+       l.free_heights ? "facets move along z to where their walls are lowest"
+       : lens         ? "a smooth surface has no walls"
+                      : "inverse.heights is flat: nothing is solved"},
+      {"transport", lens, lens ? what : chosen},
+      {"incoming", !straight,
+       straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
+      {"judge", true,
+       l.coloured ? "in colours, by rays through the finished solid, walls and all" : "rays through the finished solid, walls and all"}};
 }
 
 } // namespace
@@ -82,11 +84,13 @@ InversePlan make_plan(const preset::Preset& preset)
   plan.defines = facet_defines(l);
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
   plan.passes = passes_of(settings(preset), l);
-  plan.buffers = {{"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming.size(), true},
-                  {"light on the receivers (host)", 6 * sizeof(double) * l.cell_count() * l.distances.size(), true},
-                  {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
-                  {"light on the frames (host)", 3 * sizeof(double) * l.cell_count() * l.frames.size(), true},
-                  {"the solid and its files (host)", triangle_bytes * triangles, true}};
+  plan.buffers = {
+      {"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming.size(), true},
+      {"light on the receivers (host)", 8 * sizeof(double) * l.cell_count() * l.distances.size(), true},
+      {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
+      {"light on the frames (host)", 5 * sizeof(double) * l.cell_count() * l.frames.size(), true},
+      {"the judge's light", (l.coloured ? 6 : 2) * sizeof(std::int64_t) * l.cell_count() * (l.distances.size() + l.frames.size())},
+      {"the solid and its files (host)", triangle_bytes * triangles, true}};
   if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
                                      "soft; choose more facets or fewer cells",

@@ -99,6 +99,9 @@ void check(const preset::Preset& preset, const Where& where)
   if (s.smoothing_normals > 0 && s.method != Method::assign)
     refuse("smoothing_normals", fmt::format("is {}, and only the method 'assign' has such a term", s.smoothing_normals), "expected 0",
            "or choose the method 'assign'");
+  if (s.light.spectrum && s.band_nm > 0)
+    refuse("band_nm", fmt::format("is {} nm, and light.spectrum has the light's wavelengths", s.band_nm), "expected one of both",
+           "remove it");
   const double first_nm = s.wavelength_nm - s.band_nm / 2, last_nm = s.wavelength_nm + s.band_nm / 2;
   if (first_nm < 380 || last_nm > 780)
     refuse("band_nm", fmt::format("is {} nm, and the light would have {} to {} nm", s.band_nm, first_nm, last_nm),

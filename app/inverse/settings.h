@@ -69,6 +69,8 @@ struct Light {
   double turn_deg = 0;                   ///< parallel: the side to which tilted light goes, counterclockwise from +x
   double distance_mm = 1000;             ///< point: from the front
   std::array<double, 2> offset_mm{0, 0}; ///< point: beside the middle of the object
+  /// Then what counts is luminance, because people look at pictures, and the judge sees colours. Without: one wavelength or a band.
+  std::optional<preset::LightSpectrum> spectrum{};
   bool operator==(const Light&) const = default;
 };
 
@@ -89,7 +91,7 @@ struct Settings {
   std::array<int, 2> facets{128, 128};      ///< across and down
   double mesh_error = 0.3;                  ///< of a lens: how far triangles send light from where its surface does, in cells
   preset::Dispersion index{};               ///< of the object, in air
-  double wavelength_nm = 550;               ///< at which the index is taken
+  double wavelength_nm = 550;               ///< at which the index is taken, without light.spectrum
   double band_nm = 0;                       ///< width of the light's band about it
   Light light;
   double sun_deg = 0;                                 ///< diameter of the sun's disc

@@ -2,6 +2,7 @@
 #include "inverse/sheet.h"
 
 #include "image/image.h"
+#include "optics/colour.h"
 
 #include <algorithm>
 #include <numeric>
@@ -81,11 +82,25 @@ std::shared_ptr<const job::Picture> received_picture(std::span<const double> lig
   return grey_picture(light, sum > 0 ? 1 / (sum * most) : 0, layout.cells);
 }
 
+std::shared_ptr<const job::Picture> coloured_picture(std::span<const glm::dvec3> xyz, double most, const Layout& layout)
+{
+  double sum = 0;
+  for (const glm::dvec3& colour : xyz) sum += colour.y;
+  auto picture = std::make_shared<job::Picture>();
+  picture->width = layout.cells.x;
+  picture->height = layout.cells.y;
+  for (const glm::dvec3& colour : xyz)
+    for (const double value : optics::xyz_to_linear_srgb({colour.x, colour.y, colour.z}))
+      picture->rgb.push_back(static_cast<float>(sum > 0 ? value / (sum * most) : 0));
+  return picture;
+}
+
 std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received)
 {
   auto picture = std::make_shared<job::Picture>(wanted);
   for (std::size_t i = 0; i < wanted.rgb.size(); i += 3) {
-    const float over = received.rgb[i] - wanted.rgb[i];
+    const float* const rgb = received.rgb.data() + i;
+    const float over = 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2] - wanted.rgb[i]; // luminance
     picture->rgb[i] = std::max(over, 0.0f);
     picture->rgb[i + 1] = 0;
     picture->rgb[i + 2] = std::max(-over, 0.0f);

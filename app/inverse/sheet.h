@@ -13,7 +13,9 @@ namespace nephroid::inverse {
 std::shared_ptr<const job::Picture> grey_picture(std::span<const double> values, double scale, const glm::ivec2& size);
 /// Grey: 1 is the brightest that is wanted, where both have the same energy. most: that, as a part of all light.
 std::shared_ptr<const job::Picture> received_picture(std::span<const double> light, double most, const Layout& layout);
-/// Red: too much light, blue: too little, on the same scale.
+/// The same in linear sRGB, where luminance is what counts; colours beyond it have negative values.
+std::shared_ptr<const job::Picture> coloured_picture(std::span<const glm::dvec3> xyz, double most, const Layout& layout);
+/// wanted: grey. Red: too much light, blue: too little, on the same scale.
 std::shared_ptr<const job::Picture> difference_picture(const job::Picture& wanted, const job::Picture& received);
 /// A pixel a facet: slope along x, slope along y, and z of its middle in millimetres.
 std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> slopes, std::span<const double> heights,

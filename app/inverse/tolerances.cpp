@@ -78,7 +78,7 @@ void Tolerances::begin()
   for (double& distance : changed_layout_.distances) distance *= 1 + wrong.farther;
   changed_ = wrong.waves_mm > 0 ? with_waves(layout_, solid_, wrong.waves_mm, seed_) : solid_;
   if (wrong.turn_deg != 0) turn(glm::radians(wrong.turn_deg), changed_layout_, changed_);
-  judge_.emplace(context_, changed_layout_, changed_, seed_);
+  judge_.emplace(context_, changed_layout_, changed_, seed_, targets_);
 }
 
 void Tolerances::advance()

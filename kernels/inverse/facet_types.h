@@ -36,6 +36,7 @@ typedef struct {
   float index_spread;                       // between the outermost indices
   int index_levels;                         // level l has 2^l groups of indices
   float index_over[2 * BEAMS - 1];          // over n: level after level
+  float index_part[2 * BEAMS - 1];          // of what counts, in the same order
   float index_within[INDEX_LEVELS];         // variance of the index that is left in the groups of a level
   float disc[2 * DISC_BEAMS], coarse_disc[8];    // x and y of points
   float left_of_disc, left_of_coarse_disc;  // of the variance, for each point
@@ -83,7 +84,7 @@ typedef struct {
   float receiver_x, receiver_y, cell_x, cell_y;
   int columns, along; // facets of a row; rays along one side of a facet
   int cells_x, cells_y, screens;
-  int index_count;
+  uint part_step; // from a ray's part of the spectrum to the next one's; 0: of one index
   int padding;
 } DeviceFront;
 
@@ -98,7 +99,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceFront) == 112 && sizeof(DeviceWayOut) == 48);
-static_assert(sizeof(DeviceLayout) == 344 && sizeof(DeviceReceiver) == 16 && sizeof(DeviceIncoming) == 40);
+static_assert(sizeof(DeviceLayout) == 468 && sizeof(DeviceReceiver) == 16 && sizeof(DeviceIncoming) == 40);
 } // namespace nephroid::shared
 #endif
 

@@ -48,7 +48,7 @@ static inline float part_on(Beam beam, int cell) { return part_before(beam, (flo
 // Of an edge between cells, far off or not.
 static inline int edge_cell(float edge, int cells) { return (int)clamp(edge, 0.0f, (float)cells); }
 
-// Beams that are alike, each shifted from the middle, with equal parts of the light.
+// Beams that are alike, each shifted from the middle, with its part of the light.
 typedef struct {
   Beam x, y;
 #if NEPHROID_SPREAD
@@ -180,6 +180,12 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
 }
 
 #if NEPHROID_SPREAD
+// Beam i's part of the light.
+static inline float part_of(global const DeviceLayout* layout, const Footprint* print, int i)
+{
+  return layout->index_part[print->groups - 1 + i / print->points] / (float)print->points;
+}
+
 // How far beam i is from the middle, in cells.
 static inline float2 shift_of(global const DeviceLayout* layout, const Footprint* print, int i)
 {
@@ -270,7 +276,7 @@ static SEPARATE int fill_tile(global const DeviceLayout* layout, const Footprint
     bx.middle += shift.x;
     by.middle += shift.y;
     for (int y = edge_cell(floor(by.middle - by.reach), TILE), y_end = edge_cell(ceil(by.middle + by.reach), TILE); y < y_end; ++y) {
-      const float part = part_on(by, y) / (float)count;
+      const float part = part_on(by, y) * part_of(layout, print, i);
       for (int x = edge_cell(floor(bx.middle - bx.reach), TILE), x_end = edge_cell(ceil(bx.middle + bx.reach), TILE); x < x_end; ++x)
         tile[TILE * y + x] += part * part_on(bx, x);
     }

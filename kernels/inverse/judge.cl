@@ -11,6 +11,11 @@
 #define NEPHROID_SPREAD 1
 #endif
 
+// 1: screens are black and white.
+#ifndef NEPHROID_CHANNELS
+#define NEPHROID_CHANNELS 3
+#endif
+
 // A ray that has met so many surfaces is lost.
 #define MAX_SURFACES 16
 
@@ -84,16 +89,17 @@ static inline void add_fate(global long* fates, uint item, int fate, float light
   add_exactly(fates + FATES * (item % FATE_SUMS) + fate, convert_long_rte(light * RAY_QUANTA));
 }
 
-// Rays first .. first + count - 1 of all: a jittered lattice on each facet, one facet after the other. light: [screen][cell].
+// Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. parts: of the light's spectrum, as
+// many as rays a facet, index and colour; each ray of a facet takes one. light: [screen][y, x, z][cell].
 __kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals, DeviceFront front,
-                    __global const float* indices, __global const DeviceReceiver* screens, uint2 seed, uint first_row, uint count,
+                    __global const float4* parts, __global const DeviceReceiver* screens, uint2 seed, uint turn, uint first_row, uint count,
                     __global long* light, __global long* fates)
 {
   const uint item = (uint)get_global_id(0);
   if (item >= count) return;
   const uint along = (uint)front.along, rays = along * along, facet = first_row * (uint)front.columns + item / rays, ray = item % rays;
   const uint column = facet % (uint)front.columns, row = facet / (uint)front.columns;
-  const float4 random = random4(seed, ray, facet, 0u, STREAM_JUDGE);
+  const float4 random = random4(seed, ray, facet, 4u * turn, STREAM_JUDGE);
   const float2 at = (float2)((float)column + ((float)(ray % along) + random.x) / (float)along,
                              (float)row + ((float)(ray / along) + random.y) / (float)along);
   const float3 place = (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
@@ -106,32 +112,42 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
     part *= front.lamp_weight * -way.z / (distance * distance * distance);
   }
   float n = front.n;
+  float4 colour = (float4)(1.0f);
 #if NEPHROID_SPREAD
-  const float4 begin = random4(seed, 0u, facet, 1u, STREAM_JUDGE), more = random4(seed, 0u, facet, 2u, STREAM_JUDGE);
+  const float4 begin = random4(seed, 0u, facet, 4u * turn + 1u, STREAM_JUDGE), more = random4(seed, 0u, facet, 4u * turn + 2u, STREAM_JUDGE);
   if (front.sun_radius > 0.0f)
     direction = beside(direction, front.sun_radius * on_circle(sqrt(even_number(begin.x, ray, 3785032107u)), even_number(begin.y, ray, 3335640777u)));
-  if (front.index_count > 0)
-    n = indices[min((int)(even_number(more.x, ray, 2283013049u) * (float)front.index_count), front.index_count - 1)];
+  if (front.part_step > 0u) {
+    const float4 drawn = parts[((uint)(more.x * (float)rays) + ray * front.part_step) % rays];
+    n = drawn.x;
+    colour = drawn.yzww;
+  }
 #endif
   const DeviceWayOut out = follow(nodes, blocks, root, normals, n, place - 1e-3f * front.thickness * direction, direction);
-  add_fate(fates, item, FATE_REFLECTED, part * out.reflected);
+  const float counts = part * colour.y, sent = counts * out.part;
+  add_fate(fates, item, FATE_REFLECTED, counts * out.reflected);
   if (!(out.part > 0.0f)) {
-    add_fate(fates, item, FATE_LOST, part * (1.0f - out.reflected));
+    add_fate(fates, item, FATE_LOST, counts * (1.0f - out.reflected));
     return;
   }
-  add_fate(fates, item, FATE_SENT, part * out.part);
-  if (out.met_wall) add_fate(fates, item, FATE_BY_WALLS, part * out.part);
+  add_fate(fates, item, FATE_SENT, sent);
+  if (out.met_wall) add_fate(fates, item, FATE_BY_WALLS, sent);
   float2 slope = out.direction.xy / -out.direction.z;
 #if NEPHROID_SPREAD
   if (front.scatter > 0.0f) // two independent normal numbers of two of 0..1 (Box and Muller 1958)
     slope += front.scatter * on_circle(sqrt(-2.0f * log(1.0f - even_number(begin.z, ray, 2939605023u))), even_number(begin.w, ray, 2590590015u));
 #endif
+  const size_t cells = (size_t)front.cells_x * (size_t)front.cells_y;
   for (int j = 0; j < front.screens; ++j) {
     const DeviceReceiver screen = screens[j];
     const float2 hit = out.from.xy + slope * (screen.distance + out.from.z) - (float2)(screen.x, screen.y);
     const float x = floor((hit.x + 0.5f * front.receiver_x) / front.cell_x), y = floor((0.5f * front.receiver_y - hit.y) / front.cell_y);
     if (!(x >= 0.0f && y >= 0.0f && x < (float)front.cells_x && y < (float)front.cells_y)) continue;
-    const size_t cell = ((size_t)j * (size_t)front.cells_y + (size_t)y) * (size_t)front.cells_x + (size_t)x;
-    add_exactly(light + cell, convert_long_rte(part * out.part * RAY_QUANTA));
+    global long* cell = light + cells * NEPHROID_CHANNELS * (size_t)j + (size_t)y * (size_t)front.cells_x + (size_t)x;
+    add_exactly(cell, convert_long_rte(sent * RAY_QUANTA));
+#if NEPHROID_CHANNELS == 3
+    add_exactly(cell + cells, convert_long_rte(part * out.part * colour.x * RAY_QUANTA));
+    add_exactly(cell + 2 * cells, convert_long_rte(part * out.part * colour.z * RAY_QUANTA));
+#endif
   }
 }

@@ -34,7 +34,7 @@ SUITES = [
     "kernels.Trace:AgainstEmbree", "images.ErrorEstimate", "kernels.Photons:PhotonKernel", "physics.Background:BackgroundFurnace",
     "physics.Indirect:DiffuseFurnace", "physics.HalvesOfTheFilm:LowDiscrepancy:WholeClusters:WavelengthJitter",
     "physics.PhotonMaps:MapEstimators", "physics.MapBands", "physics.SmoothReceiver", "physics.SpectralDifferentials",
-    "kernels.Relighting", "physics.EnvironmentLight:HotTexel", "environment.Bake", "inverse.DeviceFacetsTest:Judge:Assignment",
+    "kernels.Relighting", "physics.EnvironmentLight:HotTexel", "environment.Bake", "inverse.DeviceFacetsTest:Judge:Colours:Assignment",
 ]
 
 

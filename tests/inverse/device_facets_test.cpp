@@ -30,7 +30,8 @@ protected:
     made.scatter = lit.scatter;
     made.free_heights = lit.free_heights;
     made.offsets = lit.offsets;
-    for (int i = 0; i < 16 && lit.band > 0; ++i) made.indices.push_back(made.n + lit.band * ((i + 0.5) / 16 - 0.5));
+    if (lit.band > 0) made.spectrum = test::band(made.n, lit.band);
+    for (std::size_t i = 0; i < made.spectrum.size(); ++i) made.spectrum[i].xyz *= 2 * (static_cast<double>(i) + 0.5) / 400;
     set_light(made, lit.light, "light");
     return made;
   }

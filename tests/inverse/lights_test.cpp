@@ -5,12 +5,14 @@
 #include "inverse/judge.h"
 #include "inverse/layout.h"
 #include "optics/fresnel.h"
+#include "tests/inverse/searches.h"
 #include "tests/support/render.h"
 #include "tests/support/test.h"
 
 namespace nephroid::lights_test {
 
 using namespace inverse;
+using test::band;
 
 Light tilted(double tilt_deg, double turn_deg) { return {.tilt_deg = tilt_deg, .turn_deg = turn_deg}; }
 
@@ -208,7 +210,7 @@ TEST(Lights, ASteepFacetWidensTheSun)
 TEST(Lights, ABandOfWavelengthsPartsAlongTheSlope)
 {
   Layout layout = one_facet();
-  for (int i = 0; i < 16; ++i) layout.indices.push_back(1.5 + 0.08 * ((i + 0.5) / 16 - 0.5));
+  layout.spectrum = band(1.5, 0.08);
   expect_same_spot(layout, {0.4, 0.2}, 0.05);
   const auto variance = [&](bool along_x) { return moments(lines_of(layout, footprint(layout, 0, {0.4, 0}, 0), along_x)).variance; };
   EXPECT_LT(variance(false), 0.1 * variance(true));
@@ -234,9 +236,9 @@ double apart(const Layout& layout, const glm::dvec2& slope)
 TEST(Lights, ABlurIsWhereRaysAre)
 {
   Layout layout{.size = {1, 1}, .facets = {1, 1}, .receiver = {60, 60}, .cells = {60, 60}, .distances = {100}};
-  for (int i = 0; i < 16; ++i) layout.indices.push_back(1.5 + 0.04 * ((i + 0.5) / 16 - 0.5));
+  layout.spectrum = band(1.5, 0.04);
   EXPECT_LT(apart(layout, {0.15, 0.12}), 0.02);
-  layout.indices.clear();
+  layout.spectrum.clear();
   layout.sun_radius = 0.012;
   EXPECT_LT(apart(layout, {0.15, 0.12}), 0.05);
 }

@@ -99,9 +99,10 @@ shared::DeviceLayout device_layout(const Layout& l)
                             .scatter = number(l.scatter),
                             .spreads = l.lamp ? number(1 / (l.lamp->z - l.thickness + l.thickness / l.n)) : 0,
                             .free_heights = l.free_heights,
-                            .index_spread = l.indices.empty() ? 0 : number(std::abs(l.indices.back() - l.indices.front())),
+                            .index_spread = number(index_spread(l)),
                             .index_levels = 1,
                             .index_over = {},
+                            .index_part = {},
                             .index_within = {},
                             .disc = {},
                             .coarse_disc = {},
@@ -109,9 +110,10 @@ shared::DeviceLayout device_layout(const Layout& l)
                             .left_of_coarse_disc = number(left_of_disc(4)),
                             .piece_in_cells = number(piece_in_cells),
                             .wide_in_cells = number(wide_in_cells)};
-  for (int level = 0; level < INDEX_LEVELS && (1 << level) <= static_cast<int>(l.indices.size()); ++level) {
+  for (int level = 0; level < INDEX_LEVELS; ++level) {
     const IndexGroups groups = index_groups(l, 1 << level);
     std::transform(groups.over.begin(), groups.over.end(), made.index_over + (1 << level) - 1, number);
+    std::transform(groups.parts.begin(), groups.parts.end(), made.index_part + (1 << level) - 1, number);
     made.index_within[level] = number(groups.within);
     made.index_levels = level + 1;
   }
@@ -145,7 +147,7 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
 
 compute::Defines facet_defines(const Layout& layout)
 {
-  const bool spreads = layout.sun_radius > 0 || layout.scatter > 0 || !layout.indices.empty();
+  const bool spreads = layout.sun_radius > 0 || layout.scatter > 0 || !layout.spectrum.empty();
   return {{"NEPHROID_INCOMING", layout.incoming.empty() ? "0" : "1"},
           {"NEPHROID_SPREAD", spreads ? "1" : "0"},
           {"NEPHROID_SMOOTHS", layout.smoothing > 0 ? "1" : "0"}};

@@ -61,22 +61,23 @@ LitPart lit_part(const Layout& layout, std::size_t facet, const glm::dvec2& insi
   return lit;
 }
 
-/// A blur in slopes: shifts of equal parts of the light, and the variance along x and along y that is left of each.
+/// A blur in slopes: shifts of parts of the light, and the variance along x and along y that is left of each.
 struct Blur {
   int count = 1;
   std::array<glm::dvec2, Beams::most> shifts{};
+  std::array<double, Beams::most> parts{1};
   glm::dvec2 variance{0};
 };
 
-/// Indices in so many groups of neighbours that the line between the outermost is cut into pieces that are short beside a cell.
+/// The line of indices in as many pieces as it takes for each to be short beside a cell.
 void part_colours(const Layout& layout, const glm::dvec2& by_index, double longest, int most, Blur& blur)
 {
-  const auto indices = static_cast<int>(layout.indices.size());
-  const double length = glm::length(by_index) * std::abs(layout.indices.back() - layout.indices.front());
+  const double length = glm::length(by_index) * index_spread(layout);
   int count = 1;
-  while (2 * count <= std::min(most, indices) && length > longest * count) count *= 2;
+  while (2 * count <= most && length > longest * count) count *= 2;
   const IndexGroups groups = index_groups(layout, count);
-  for (int k = 0; k < count; ++k) blur.shifts[static_cast<std::size_t>(k)] = groups.over[static_cast<std::size_t>(k)] * by_index;
+  for (std::size_t k = 0; k < groups.over.size(); ++k) blur.shifts[k] = groups.over[k] * by_index;
+  std::copy(groups.parts.begin(), groups.parts.end(), blur.parts.begin());
   blur.count = count;
   blur.variance += groups.within * by_index * by_index;
 }
@@ -87,7 +88,11 @@ void part_disc(const glm::dmat2& spread, int points, Blur& blur)
   const std::vector<glm::dvec2> disc = disc_points(points);
   for (int k = blur.count - 1; k >= 0; --k) {
     const glm::dvec2 middle = blur.shifts[static_cast<std::size_t>(k)];
-    for (int i = 0; i < points; ++i) blur.shifts[index_at(i, k, points)] = middle + spread * disc[static_cast<std::size_t>(i)];
+    const double part = blur.parts[static_cast<std::size_t>(k)] / points;
+    for (int i = 0; i < points; ++i) {
+      blur.shifts[index_at(i, k, points)] = middle + spread * disc[static_cast<std::size_t>(i)];
+      blur.parts[index_at(i, k, points)] = part;
+    }
   }
   blur.count *= points;
   const glm::dvec2 x = glm::row(spread, 0), y = glm::row(spread, 1);
@@ -98,14 +103,14 @@ void part_disc(const glm::dmat2& spread, int points, Blur& blur)
 Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, double fine)
 {
   Blur blur;
-  if (!(layout.scatter > 0 || layout.sun_radius > 0 || !layout.indices.empty())) return blur;
+  if (!(layout.scatter > 0 || layout.sun_radius > 0 || !layout.spectrum.empty())) return blur;
   const SlopeChange change = slope_change(slope, layout.n, in.sines);
   // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
   const double sun = layout.sun_radius / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
   const glm::dmat2 disc = sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
   const glm::dmat2 both = disc * glm::transpose(disc) + glm::dmat2(layout.scatter * layout.scatter); // covariance
   const bool is_wide = std::sqrt(12 * (both[0][0] + both[1][1]) / 2) > wide_in_cells * fine;
-  if (!layout.indices.empty()) part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
+  if (!layout.spectrum.empty()) part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
   if (is_wide) {
     glm::dmat2 root(0); // of the covariance: root root^T
     root[0][0] = std::sqrt(both[0][0]);
@@ -119,21 +124,50 @@ Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, 
 
 } // namespace
 
+namespace {
+
+/// The least and the most of all but the ends of the spectrum.
+glm::dvec2 index_ends(const Layout& layout)
+{
+  constexpr double beyond = 1e-3;
+  glm::dvec2 ends(std::numeric_limits<double>::infinity(), 0);
+  double before = 0;
+  for (const LightPart& piece : layout.spectrum) {
+    const double behind = before + piece.xyz.y;
+    if (behind >= beyond && before <= 1 - beyond) ends = {std::min(ends[0], piece.n), std::max(ends[1], piece.n)};
+    before = behind;
+  }
+  return layout.spectrum.empty() ? glm::dvec2(layout.n) : ends;
+}
+
+} // namespace
+
+double index_spread(const Layout& layout)
+{
+  const glm::dvec2 ends = index_ends(layout);
+  return ends[1] - ends[0];
+}
+
 IndexGroups index_groups(const Layout& layout, int count)
 {
-  const auto indices = static_cast<int>(layout.indices.size());
-  IndexGroups groups;
-  for (int k = 0; k < count; ++k) {
-    const int first = k * indices / count, last = (k + 1) * indices / count;
-    double mean = 0, square = 0;
-    for (int i = first; i < last; ++i) {
-      const double over = layout.indices[static_cast<std::size_t>(i)] - layout.n;
-      mean += over / (last - first);
-      square += over * over / (last - first);
-    }
-    groups.over.push_back(mean);
-    groups.within += (square - mean * mean) / count;
+  const auto groups_count = static_cast<std::size_t>(count);
+  const glm::dvec2 ends = index_ends(layout);
+  const double length = (ends[1] - ends[0]) / count;
+  IndexGroups groups{std::vector<double>(groups_count), std::vector<double>(groups_count), 0};
+  double squares = 0;
+  for (const LightPart& piece : layout.spectrum) {
+    const double n = std::clamp(piece.n, ends[0], ends[1]), over = n - layout.n;
+    const std::size_t k = length > 0 ? std::min(groups_count - 1, static_cast<std::size_t>((n - ends[0]) / length)) : 0;
+    groups.over[k] += piece.xyz.y * over;
+    groups.parts[k] += piece.xyz.y;
+    squares += piece.xyz.y * over * over;
   }
+  if (layout.spectrum.empty()) groups.parts[0] = 1;
+  for (std::size_t k = 0; k < groups_count; ++k) {
+    if (groups.parts[k] > 0) groups.over[k] /= groups.parts[k];
+    squares -= groups.parts[k] * groups.over[k] * groups.over[k];
+  }
+  groups.within = std::max(0.0, squares);
   return groups;
 }
 
@@ -185,7 +219,7 @@ Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope,
     return Beam{at[axis], std::abs(map[axis][axis]) * lit.size[axis] * size[axis] / cell[axis],
                 std::sqrt(across * across + box[axis]) / cell[axis]};
   };
-  Beams beams{beam(0), beam(1), blur.count, {}};
+  Beams beams{beam(0), beam(1), blur.count, {}, blur.parts};
   for (int k = 0; k < blur.count; ++k)
     beams.shifts[static_cast<std::size_t>(k)] = blur.shifts[static_cast<std::size_t>(k)] * distance / glm::dvec2(cell.x, -cell.y);
   return beams;
@@ -213,7 +247,7 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
     double last = before(beams.x, shift.x, print.x0);
     for (int i = 0; i < print.columns; ++i) {
       const double next = before(beams.x, shift.x, print.x0 + i + 1);
-      row[static_cast<std::size_t>(i)] = (next - last) / beams.count;
+      row[static_cast<std::size_t>(i)] = (next - last) * beams.parts[static_cast<std::size_t>(k)];
       last = next;
     }
     last = before(beams.y, shift.y, print.y0);

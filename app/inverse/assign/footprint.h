@@ -22,9 +22,13 @@ double blur_width(const Layout& layout, double distance);
 /// A line of indices is cut until its pieces, and a disc is points where it is wider, in parts of a cell.
 inline constexpr double piece_in_cells = 0.25, wide_in_cells = 0.5;
 
-/// The layout's indices in groups of neighbours: the mean of each over layout.n, and the variance that is left in them.
+/// Between the least and the largest index, without a thousandth of what counts at either end of the spectrum.
+double index_spread(const Layout& layout);
+
+/// That line in so many pieces of equal length: the mean index of each over layout.n, its part of what counts, and the variance that is
+/// left in them. What is beyond an end is counted there.
 struct IndexGroups {
-  std::vector<double> over;
+  std::vector<double> over, parts;
   double within = 0;
 };
 IndexGroups index_groups(const Layout& layout, int count);
@@ -36,20 +40,21 @@ inline constexpr int disc_beams = 8;
 std::vector<glm::dvec2> disc_points(int count);
 constexpr double left_of_disc(int points) { return points == disc_beams ? 0.22 : 0.27; }
 
-/// Light of a facet on its way to a receiver, in cells: beams that are alike, each shifted from the middle, with equal parts of the light.
+/// Light of a facet on its way to a receiver, in cells: beams that are alike, each shifted from the middle, with its part of the light.
 /// A beam is a product: what lands in a cell is the part along x times the part along y.
 struct Beams {
   static constexpr int most = 16;
   Beam x, y;
   int count = 1;
   std::array<glm::dvec2, most> shifts{};
+  std::array<double, most> parts{1};
 };
 
 /// The beams of a facet with this slope. A facet of gradient g, whose light starts at z = g . p, hits a plane at (1 + slope g^T) p beside
 /// its middle: a parallelogram, smaller along the slope than the facet; a lamp's light has another slope at each p. Its shadow along x and
-/// along y is exact; that both hang together off the axes is not kept. A band of wavelengths is a line along the change of the slope with
+/// along y is exact; that both hang together off the axes is not kept. A spectrum is a line along the change of the slope with
 /// the index: as many beams as it takes for the rest of each to be short beside a cell. The sun's disc and roughness, where they are wide
-/// beside a cell, are 8 beams, 4 where the light has a band. What is left of a blur is a box along each axis with its variance. height:
+/// beside a cell, are 8 beams, 4 where the light has a spectrum. What is left of a blur is a box along each axis with its variance. height:
 /// z of the facet's middle, from where its light has further to go.
 Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height = 0);
 

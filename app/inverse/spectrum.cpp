@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inverse/spectrum.h"
+
+#include "inverse/layout.h"
+#include "optics/colour.h"
+#include "scene/materials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace nephroid::inverse {
+namespace {
+
+/// Of wavelengths that stand for a band.
+constexpr int band_samples = 400;
+
+double weight_of(const LightPart& part) { return part.xyz.x + part.xyz.y + part.xyz.z; }
+
+struct Index {
+  optics::DispersionCurve curve;
+  optics::Outside outside;
+  Place where;
+  const char* remedy;
+
+  double at(double nm) const
+  {
+    const optics::IndexSample sample = curve.sample(nm, outside);
+    if (!sample.n) throw bad_input(where, fmt::format("has no n at {} nm", nm), remedy);
+    if (std::abs(*sample.n - 1) < 1e-3)
+      throw bad_input(where, fmt::format("is {:.5f} at {} nm, which bends hardly any light", *sample.n, nm),
+                      "expected one that differs from 1 by at least 0.001");
+    return *sample.n;
+  }
+};
+
+std::vector<LightPart> coloured(const optics::Spectrum& power, const Index& index)
+{
+  const optics::ColourMatching& eye = optics::cie_1931();
+  const double luminance = optics::to_xyz(power)[1];
+  std::vector<LightPart> parts;
+  for (std::size_t i = 0; i < power.size(); ++i)
+    if (power[i] > 0)
+      parts.push_back(
+          {index.at(optics::wavelength_nm(static_cast<int>(i))), power[i] / luminance * glm::dvec3(eye.x[i], eye.y[i], eye.z[i])});
+  return parts;
+}
+
+std::vector<LightPart> band(const Settings& s, const Index& index)
+{
+  const int count = s.band_nm > 0 ? band_samples : 1;
+  std::vector<LightPart> parts;
+  for (int i = 0; i < count; ++i)
+    parts.push_back({index.at(s.wavelength_nm + s.band_nm * ((i + 0.5) / count - 0.5)), glm::dvec3(1.0 / count)});
+  return parts;
+}
+
+} // namespace
+
+std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::size_t count)
+{
+  double sum = 0;
+  for (const LightPart& piece : spectrum) sum += weight_of(piece);
+  const double full = sum / static_cast<double>(count);
+  std::vector<LightPart> parts(count, {0, glm::dvec3(0)});
+  std::size_t k = 0;
+  double room = full; // in part k
+  for (const LightPart& piece : spectrum) {
+    const double weight = weight_of(piece);
+    for (double left = weight; left > 0;) {
+      const bool fits = left <= room || k + 1 == count;
+      const double taken = fits ? left : room;
+      parts[k].n += piece.n * taken / full;
+      parts[k].xyz += piece.xyz * (taken / weight);
+      left = fits ? 0 : left - taken;
+      room -= taken;
+      if (fits) continue;
+      ++k;
+      room = full;
+    }
+  }
+  return parts;
+}
+
+void set_spectrum(Layout& layout, const preset::Preset& preset)
+{
+  const Settings& s = settings(preset);
+  const Place own = Place(preset.source) / "inverse";
+  const FileFinder finder(std::filesystem::path(preset.source).parent_path());
+  layout.coloured = s.light.spectrum.has_value();
+  const Index index{scene::make_curve(s.index, finder, own / "index"), scene::outside_policy(s.index.outside), own / "index",
+                    layout.coloured ? "expected one for all wavelengths of light.spectrum"
+                                    : "expected another wavelength_nm or a narrower band_nm"};
+  layout.spectrum =
+      layout.coloured ? coloured(scene::make_light_spectrum(*s.light.spectrum, own / "light" / "spectrum"), index) : band(s, index);
+  const std::vector<LightPart>& all = layout.spectrum;
+  layout.n = 0;
+  for (const LightPart& part : all) layout.n += part.n * part.xyz.y;
+  if (layout.coloured || std::any_of(all.begin(), all.end(), [&](const LightPart& part) { return part.n != all.front().n; })) return;
+  layout.n = all.front().n;
+  layout.spectrum.clear();
+}
+
+} // namespace nephroid::inverse
