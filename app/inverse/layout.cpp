@@ -28,9 +28,9 @@ void read_index(const preset::Preset& preset, Layout& layout)
     const double nm = s.wavelength_nm + s.band_nm * ((i + 0.5) / count - 0.5);
     const optics::IndexSample sample = curve.sample(nm, scene::outside_policy(s.index.outside));
     if (!sample.n) throw bad_input(where, fmt::format("has no n at {} nm", nm), "expected another wavelength_nm or a narrower band_nm");
-    if (std::abs(*sample.n - 1) < 1e-3)
+    if (std::abs(*sample.n - 1) < 1e-3 * (1 - 1e-9))
       throw bad_input(where, fmt::format("is {:.5f} at {} nm, which bends hardly any light", *sample.n, nm),
-                      "expected one that differs from 1 by at least 0.001");
+                      "expected one that differs from 1 by at least 0.001, such as 1.5");
     layout.indices.push_back(*sample.n);
   }
   layout.n = std::accumulate(layout.indices.begin(), layout.indices.end(), 0.0) / count;
