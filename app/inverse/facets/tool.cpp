@@ -85,6 +85,7 @@ double unreached_part(const Layout& layout, const Solid& solid, double radius)
 
 Valley tightest_valley(const Layout& layout, const Surface& surface)
 {
+  constexpr double flat = 1e-6; // of a curvature in 1 / mm
   Valley tightest;
   for (std::size_t i = 0; i < layout.facet_count(); ++i) {
     const Surface::At at = surface.at(layout.middle(i));
@@ -93,7 +94,7 @@ Valley tightest_valley(const Layout& layout, const Surface& surface)
     const glm::dmat2 first = glm::dmat2(1) + glm::outerProduct(at.gradient, at.gradient),
                      shape = glm::inverse(first) * (-at.curvature / std::sqrt(length2));
     const double mean = (shape[0][0] + shape[1][1]) / 2, most = mean + std::sqrt(std::max(0.0, mean * mean - glm::determinant(shape)));
-    if (most > 0 && 1 / most < tightest.radius) tightest = {1 / most, layout.middle(i)};
+    if (most > flat && 1 / most < tightest.radius) tightest = {1 / most, layout.middle(i)};
   }
   return tightest;
 }

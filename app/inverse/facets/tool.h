@@ -11,8 +11,8 @@ namespace nephroid::inverse {
 /// points of the facets are sampled, 64 or more on each of up to 64 x 64 facets.
 double unreached_part(const Layout& layout, const Solid& solid, double radius);
 
-/// Of a lens: the smallest radius of curvature in its valleys, in mm, and where; infinite where it has none. A ball that is smaller reaches
-/// all of it.
+/// Of a lens: the smallest radius of curvature in its valleys, in mm, and where; infinite where none is below a kilometre. A ball that is
+/// smaller reaches all of it.
 struct Valley {
   double radius = std::numeric_limits<double>::infinity();
   glm::dvec2 at{0};
