@@ -87,7 +87,7 @@ void refuse_mistyped_verb(const CLI::App& program, const std::string& word)
 {
   if (word.find_first_of("./") != std::string::npos || is_there(word)) return;
   std::vector<std::string> known = verb_names(program);
-  known.insert(known.end(), {"--help", "--version"}); // "help"
+  known.insert(known.end(), {"help", "--version"});
   const std::string verb = nearest(word, known);
   if (verb.empty()) return;
   if (const auto presets = presets_folder_if_any(); !presets.empty() && is_there(presets / (word + ".json"))) return;
@@ -114,12 +114,22 @@ int parse_and_run(int argc, const char* const* argv, const Window& window)
   program.require_subcommand(0, 1);
   program.add_option("FILE", files, "Open in the window: presets by path or shipped name");
   if (window.add_options) window.add_options(program);
-  for (const auto add : {add_run, add_plan, add_dispersion, add_clusters, add_importance, add_segment, add_pictures, add_compare,
+  for (const auto add : {add_run, add_plan, add_dispersion, add_clusters, add_importance, add_segment, add_pictures, add_plate, add_compare,
                          add_report, add_presets, add_import, add_devices, add_check, add_schema, add_manual, add_version})
     add(program, session);
   for (CLI::App* verb : program.get_subcommands({})) verb->group("Verbs");
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") { // `help VERB` is `VERB --help`
+    words.erase(words.begin());
+    const std::vector<std::string> verbs = verb_names(program);
+    if (!words.empty() && std::find(verbs.begin(), verbs.end(), words.front()) == verbs.end())
+      throw bad_input("help", fmt::format("unknown verb '{}'", words.front()), did_you_mean(nearest(words.front(), verbs)),
+                      "see nephroid help");
+    words.emplace_back("--help");
+  }
+  std::reverse(words.begin(), words.end()); // CLI11 takes them from the end
   try {
-    program.parse(argc, argv);
+    program.parse(std::move(words));
   } catch (const CLI::Success& request) { // --help and --version
     return program.exit(request);
   } catch (const CLI::ParseError& error) {

@@ -316,9 +316,10 @@ void report_result(const RunOptions& options, const Target& target, const job::P
     fmt::print("{}\n", json_text(all));
   } else {
     const job::Units& units = progress.units;
-    fmt::print("{}: {}, {:.1f} million {} in {:.1f} s of work\n", shown_of(target).string(),
-               counted(progress.step, std::string(units.step), std::string(units.steps)), static_cast<double>(progress.work) * 1e-6,
-               units.works, progress.work_seconds);
+    const std::string work = progress.work < 100'000 ? fmt::format("{}", progress.work)
+                                                     : fmt::format("{:.1f} million", static_cast<double>(progress.work) * 1e-6);
+    fmt::print("{}: {}, {} {} in {:.1f} s of work\n", shown_of(target).string(),
+               counted(progress.step, std::string(units.step), std::string(units.steps)), work, units.works, progress.work_seconds);
   }
   std::fflush(stdout);
   if (!finished || options.pictures_at.empty() || options.pictures_at.back() <= progress.work_seconds) return;

@@ -82,6 +82,7 @@ template void Verb::option(const char*, int&, const Option&);
 template void Verb::option(const char*, std::uint64_t&, const Option&);
 template void Verb::option(const char*, double&, const Option&);
 template void Verb::option(const char*, std::array<int, 2>&, const Option&);
+template void Verb::option(const char*, std::array<double, 2>&, const Option&);
 template void Verb::option(const char*, std::vector<std::string>&, const Option&);
 template void Verb::option(const char*, std::vector<std::filesystem::path>&, const Option&);
 template void Verb::option(const char*, std::vector<double>&, const Option&);

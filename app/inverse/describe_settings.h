@@ -170,6 +170,8 @@ inline void describe(preset::Fields& v, Settings& s)
           {.unit = "degrees", .bounds = within(0.01, 90)});
   v.field("tool_radius_mm", "Of the cutter that mills the facets, each of which must be as wide as the cutter at least.", s.tool_radius_mm,
           {.unit = "mm", .bounds = within(0.001, 1e4)});
+  v.field("layer_mm", "Thickness of the layers of a printer, which lie along the front: says how many the relief has.", s.layer_mm,
+          {.unit = "mm", .bounds = within(0.001, 10)});
   v.field("draft_deg", "How far walls between facets lean at least, so that they can be milled or leave a mould.", s.draft_deg,
           {.unit = "degrees", .bounds = within(0, 30)});
   v.field("smoothing_normals",

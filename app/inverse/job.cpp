@@ -352,9 +352,10 @@ private:
 
   void add_files(job::Snapshot& snapshot) const
   {
+    const std::string name = preset_.name.empty() ? "The object" : preset_.name;
     const auto layout = std::make_shared<const Layout>(layout_); // one for all files: a lamp's has a table of the facets
-    const auto add = [&](const char* name, auto write) {
-      snapshot.files.push_back({name, [write, solid = solid_, layout](ByteSink& to) { write(*layout, *solid, to); }});
+    const auto add = [&](const std::string& file, auto write) {
+      snapshot.files.push_back({file, [write, solid = solid_, layout](ByteSink& to) { write(*layout, *solid, to); }});
     };
     add("object.obj", [](const Layout&, const Solid& solid, ByteSink& to) { write_obj(solid.mesh, to); });
     add("object.stl", [](const Layout&, const Solid& solid, ByteSink& to) { write_stl(solid.mesh, to); });
@@ -365,22 +366,22 @@ private:
     if (!layout_.lamp)
       snapshot.files.push_back(
           {glass_view_file, [view = glass_view(layout_, targets_, preset_)](ByteSink& to) { to.write(std::as_bytes(std::span(view))); }});
-    const std::string tolerances = tolerances_ ? tolerance_table(judge_->costs(targets_), tolerances_->rows()) : "";
-    add("workshop.md",
-        [material = material_of(settings(preset_), layout_.n), tolerances](const Layout& of, const Solid& solid, ByteSink& to) {
-          const std::string page = workshop_page(of, solid, material) + tolerances;
-          to.write(std::as_bytes(std::span(page)));
-        });
-    const auto add_text = [&](const char* name, std::string text) {
-      snapshot.files.push_back({name, [text = std::move(text)](ByteSink& to) { to.write(std::as_bytes(std::span(text))); }});
+    const auto add_text = [&](const std::string& file, auto text) {
+      add(file, [text](const Layout& of, const Solid& solid, ByteSink& to) {
+        const std::string words = text(of, solid);
+        to.write(std::as_bytes(std::span(words)));
+      });
     };
-    if (tolerances_) add_text("tolerance.csv", tolerance_csv(judge_->costs(targets_), tolerances_->rows()));
-    std::vector<std::shared_ptr<const job::Picture>> cast;
-    for (std::size_t j = 0; j < targets_.size(); ++j) cast.push_back(picture_of(j, brightest(j)));
-    add("print.svg", [cast, name = preset_.name.empty() ? "The object" : preset_.name](const Layout& of, const Solid&, ByteSink& to) {
-      const std::string page = print_page(of, cast, name);
-      to.write(std::as_bytes(std::span(page)));
-    });
+    const std::string tolerances = tolerances_ ? tolerance_table(judge_->costs(targets_), tolerances_->rows()) : "";
+    const Settings& s = settings(preset_);
+    add_text("workshop.md", [material = material_of(s, layout_.n), tolerances, making = Making{s.tool_radius_mm, s.layer_mm}](
+                                const Layout& of, const Solid& solid) { return workshop_page(of, solid, material, making) + tolerances; });
+    if (tolerances_)
+      add_text("tolerance.csv", [csv = tolerance_csv(judge_->costs(targets_), tolerances_->rows())](const auto&...) { return csv; });
+    add_text("print_object.svg", [name](const Layout& of, const Solid&) { return object_page(of, name); });
+    for (std::size_t j = 0; j < targets_.size(); ++j)
+      add_text(fmt::format("print_{}.svg", j + 1),
+               [name, j, cast = picture_of(j, brightest(j))](const Layout& of, const Solid&) { return receiver_page(of, j, *cast, name); });
   }
 
   /// Where the stop counts from: the run's begin, or the newest preset that it took on.

@@ -96,6 +96,7 @@ InversePlan make_plan(const preset::Preset& preset)
                                      "soft; choose more facets or fewer cells",
                                      l.facet().x, l.facet().y, l.cell().x, l.cell().y));
   for (std::string& note : picture_notes(settings(preset), l, plan.targets, plan.best)) plan.notes.push_back(std::move(note));
+  for (std::string& note : workshop_notes(settings(preset), l)) plan.notes.push_back(std::move(note));
   const std::int64_t trials = Pipeline::trials_of(settings(preset).thesis);
   if (settings(preset).method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
     plan.notes.push_back(fmt::format("the thesis' pipeline takes up to {} trials and stops after {}: a 'stop.passes' of {} lets it end",

@@ -7,12 +7,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <array>
 
 namespace nephroid::inverse {
 namespace {
 
 constexpr double margin = 12, text_line = 6; // mm
+constexpr const char *solid = "stroke=\"black\" stroke-width=\"0.2\"",
+                     *dashed = "stroke=\"red\" stroke-width=\"0.2\" stroke-dasharray=\"2 2\"";
 
 std::string escaped(const std::string& text)
 {
@@ -41,39 +43,65 @@ std::string marks(const glm::dvec2& middle, const glm::dvec2& size, const char* 
                      middle.y, style, middle.x, top + 0.5);
 }
 
+/// Of a page that has so much in it below its lines of text: the smallest sheet from A4 on that holds it, upright or across; where A0 is
+/// too small, one of its own.
+glm::dvec2 sheet_for(const glm::dvec2& content, double lines)
+{
+  const glm::dvec2 needed = glm::max(content + glm::dvec2(0, lines * text_line), glm::dvec2(115, 0)) + 2 * margin;
+  for (const glm::dvec2& iso : {glm::dvec2(210, 297), {297, 420}, {420, 594}, {594, 841}, {841, 1189}})
+    for (const glm::dvec2& sheet : {iso, glm::dvec2(iso.y, iso.x)})
+      if (needed.x <= sheet.x && needed.y <= sheet.y) return sheet;
+  return needed;
+}
+
+/// With the line that shows whether it was printed in real size, and two lines of text.
+std::string begun(const glm::dvec2& sheet, const std::string& name, const std::string& first, const std::string& second)
+{
+  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}mm\" height=\"{1:.6g}mm\" "
+                     "viewBox=\"0 0 {0:.6g} {1:.6g}\" font-family=\"sans-serif\" font-size=\"3.5\" stroke=\"none\">\n"
+                     "<rect width=\"{0:.6g}\" height=\"{1:.6g}\" fill=\"white\"/>\n",
+                     sheet.x, sheet.y) +
+         text(margin, margin, fmt::format("{}: print at 100 %, then this line is 50 mm long:", name)) +
+         fmt::format("<path d=\"M{:.6g} {:.6g}h50m0 -1.5v3m-50 0v-3\" fill=\"none\" {}/>\n", margin, margin + 3, solid) +
+         text(margin, margin + 2 * text_line, first) + text(margin, margin + 3 * text_line, second);
+}
+
+constexpr double lines_above = 4; // of text
+
 } // namespace
 
-std::string print_page(const Layout& layout, const std::vector<std::shared_ptr<const job::Picture>>& cast, const std::string& name)
+std::string object_page(const Layout& layout, const std::string& name)
 {
-  constexpr const char *solid = "stroke=\"black\" stroke-width=\"0.2\"",
-                       *dashed = "stroke=\"red\" stroke-width=\"0.2\" stroke-dasharray=\"2 2\"";
-  const glm::dvec2 most = glm::max(layout.size, layout.receiver);
-  const double block = most.y + 3 * text_line, width = std::max(most.x, 115.0) + 2 * margin,
-               height = layout.size.y + 5 * text_line + static_cast<double>(cast.size()) * block + 2 * margin;
-  std::string page = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}mm\" height=\"{1:.6g}mm\" "
-                                 "viewBox=\"0 0 {0:.6g} {1:.6g}\" font-family=\"sans-serif\" font-size=\"3.5\" stroke=\"none\">\n"
-                                 "<rect width=\"{0:.6g}\" height=\"{1:.6g}\" fill=\"white\"/>\n",
-                                 width, height);
-  double y = margin;
-  page += text(margin, y, fmt::format("{}: print at 100 %, then this line is 50 mm long:", name));
-  page += fmt::format("<path d=\"M{:.6g} {:.6g}h50m0 -1.5v3m-50 0v-3\" fill=\"none\" {}/>\n", margin, y + 3, solid);
-  y += 2 * text_line;
-  page += text(margin, y, fmt::format("The object, {:.6g} x {:.6g} mm, seen along the light:", layout.size.x, layout.size.y));
-  page += text(margin, y + text_line, "its flat front, where light enters, is on your side; the arrow is up.");
-  y += 2 * text_line + layout.size.y / 2;
-  const glm::dvec2 object(width / 2, y);
-  page += outline(object, layout.size, solid) + marks(object, layout.size, solid);
-  y += layout.size.y / 2 + text_line;
-  for (std::size_t j = 0; j < cast.size(); ++j, y += block) {
-    page += text(margin, y + text_line,
-                 fmt::format("Receiver {}: {:.6g} x {:.6g} mm, {:.6g} mm from the facets (red: the object)", j + 1, layout.receiver.x,
-                             layout.receiver.y, layout.distances[j]));
-    const glm::dvec2 middle(width / 2, y + 2 * text_line + most.y / 2), corner = middle - layout.receiver / 2.0;
-    page += fmt::format("<image x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" preserveAspectRatio=\"none\" "
-                        "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n",
-                        corner.x, corner.y, layout.receiver.x, layout.receiver.y,
-                        base64(image::png(cast[j]->width, cast[j]->height, cast[j]->rgb)));
-    page += outline(middle, layout.receiver, solid) + outline(middle, layout.size, dashed);
+  const glm::dvec2 sheet = sheet_for(layout.size, lines_above), middle(sheet.x / 2, margin + lines_above * text_line + layout.size.y / 2);
+  return begun(sheet, name, fmt::format("The object, {:.6g} x {:.6g} mm, seen along the light:", layout.size.x, layout.size.y),
+               "its flat front, where light enters, is on your side; the arrow is up.") +
+         outline(middle, layout.size, solid) + marks(middle, layout.size, solid) + "</svg>\n";
+}
+
+std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast, const std::string& name)
+{
+  const glm::dvec2 most = glm::max(layout.size, layout.receiver), sheet = sheet_for(most, lines_above),
+                   middle(sheet.x / 2, margin + lines_above * text_line + most.y / 2), corner = middle - layout.receiver / 2.0;
+  return begun(sheet, name,
+               fmt::format("Receiver {}: {:.6g} x {:.6g} mm, {:.6g} mm from the facets, seen along the light", receiver + 1,
+                           layout.receiver.x, layout.receiver.y, layout.distances[receiver]),
+               "(red: the object)") +
+         fmt::format("<image x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" preserveAspectRatio=\"none\" "
+                     "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n",
+                     corner.x, corner.y, layout.receiver.x, layout.receiver.y, base64(image::png(cast.width, cast.height, cast.rgb))) +
+         outline(middle, layout.receiver, solid) + outline(middle, layout.size, dashed) + "</svg>\n";
+}
+
+std::string plate_page(const glm::dvec2& plate, const std::vector<Placed>& bodies)
+{
+  const glm::dvec2 sheet = sheet_for(plate, lines_above), middle(sheet.x / 2, margin + lines_above * text_line + plate.y / 2);
+  std::string page = begun(sheet, "The plate", fmt::format("{:.6g} x {:.6g} mm, seen along the light:", plate.x, plate.y),
+                           "the flat fronts are on your side; the arrows are up.") +
+                     outline(middle, plate, dashed);
+  for (const Placed& body : bodies) {
+    const glm::dvec2 at = middle + glm::dvec2(body.middle.x, -body.middle.y);
+    page += outline(at, body.size, solid) + marks(at, body.size, solid) +
+            text(at.x - body.size.x / 2 + 1, at.y + body.size.y / 2 - 1.5, body.name);
   }
   return page + "</svg>\n";
 }

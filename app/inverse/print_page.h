@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// A page to print in real size: the object's outline, and each receiver with what is cast there.
+// Pages to print in real size: SVG whose unit is the millimetre, on the smallest ISO sheet from A4 on that holds what is shown.
 #pragma once
+#include "inverse/facets/plate.h"
 #include "inverse/layout.h"
 #include "job/job.h"
 
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace nephroid::inverse {
 
-/// SVG whose unit is the millimetre. cast: a picture of each receiver. Seen along the light, with the object's outline over each receiver.
-std::string print_page(const Layout& layout, const std::vector<std::shared_ptr<const job::Picture>>& cast, const std::string& name);
+/// The object's outline, seen along the light.
+std::string object_page(const Layout& layout, const std::string& name);
+
+/// What is cast on a receiver, seen along the light, with the object's outline over it.
+std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast, const std::string& name);
+
+/// The outlines of bodies on a plate, each with its name.
+std::string plate_page(const glm::dvec2& plate, const std::vector<Placed>& bodies);
 
 } // namespace nephroid::inverse

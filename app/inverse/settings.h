@@ -85,6 +85,7 @@ struct Settings {
   std::optional<double> max_relief_mm{};    ///< from the lowest corner of a facet to the highest
   std::optional<double> max_slope_deg{};    ///< between a facet and the front
   std::optional<double> tool_radius_mm{};   ///< of the cutter that mills the facets
+  std::optional<double> layer_mm{};         ///< thickness of a printer's layers, which lie along the front
   double draft_deg = 0;                     ///< between a wall and the straight up, at least
   double smoothing_normals = 0;             ///< alpha_N of the thesis' (6.1): weight of facets unlike their neighbours
   double smoothing_pictures = 1;            ///< alpha_P: weight of the pictures' error

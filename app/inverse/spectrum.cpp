@@ -28,7 +28,7 @@ struct Index {
   {
     const optics::IndexSample sample = curve.sample(nm, outside);
     if (!sample.n) throw bad_input(where, fmt::format("has no n at {} nm", nm), remedy);
-    if (std::abs(*sample.n - 1) < 1e-3)
+    if (std::abs(*sample.n - 1) < 1e-3 * (1 - 1e-9))
       throw bad_input(where, fmt::format("is {:.5f} at {} nm, which bends hardly any light", *sample.n, nm),
                       "expected one that differs from 1 by at least 0.001");
     return *sample.n;

@@ -36,6 +36,25 @@ void turn(double radians, Layout& layout, Solid& solid)
   layout.thickness += std::abs(sine) * layout.size.y / 2;
 }
 
+/// Each triangle as four, by the middles of its edges: a closed surface stays closed, because both triangles of an edge have the same
+/// middle.
+Solid halved(const Solid& solid)
+{
+  Solid fine = solid;
+  fine.mesh.triangles.clear();
+  fine.parts.clear();
+  for (std::size_t i = 0; i < solid.parts.size(); ++i) {
+    const glm::uvec3& t = solid.mesh.triangles[i];
+    const auto first = static_cast<glm::uint>(fine.mesh.positions.size());
+    for (int k = 0; k < 3; ++k) fine.mesh.positions.push_back((solid.mesh.positions[t[k]] + solid.mesh.positions[t[(k + 1) % 3]]) / 2.0f);
+    for (const glm::uvec3& part :
+         {glm::uvec3(t.x, first, first + 2), {first, t.y, first + 1}, {first + 2, first + 1, t.z}, {first, first + 1, first + 2}})
+      fine.mesh.triangles.push_back(part);
+    fine.parts.insert(fine.parts.end(), 4, solid.parts[i]);
+  }
+  return fine;
+}
+
 } // namespace
 
 Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t seed)
@@ -47,6 +66,8 @@ Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t
     const double side = 2 * glm::pi<double>() * uniform(random), k = 2 * glm::pi<double>() / wave_mm;
     wave = {k * std::cos(side), k * std::sin(side), 2 * glm::pi<double>() * uniform(random)};
   }
+  constexpr double least_a_wave = 4; // triangles' sides
+  for (double side = std::max(layout.facet().x, layout.facet().y); side > wave_mm / least_a_wave; side /= 2) solid = halved(solid);
   const double amplitude = rms_mm * std::sqrt(2.0 / count);
   for (glm::vec3& p : solid.mesh.positions) {
     if (p.z >= static_cast<float>(layout.thickness)) continue;

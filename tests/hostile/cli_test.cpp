@@ -16,7 +16,7 @@ const std::vector<Wrong> cases{
     {{"-q"}, "unknown option '-q'"},
     {{"rum", "first-light"}, "unknown verb 'rum'; did you mean 'run'?"},
     {{"preset"}, "did you mean 'presets'?"},
-    {{"help"}, "unknown verb 'help'; did you mean '--help'?"},
+    {{"help", "rum"}, "help: unknown verb 'rum'; did you mean 'run'?"},
     {{"run"}, "run: PRESET is required; see nephroid run --help"},
     {{"run", "--device"}, "--device"},
     {{"run", "spectral/plate", "--devise", "0"}, "unknown option '--devise'; did you mean '--device'?"},
@@ -85,6 +85,8 @@ TEST_F(CommandLine, HelpTeachesEveryVerb)
   const Ended help = run({"--help"});
   EXPECT_EQ(help.exit_code, 0);
   EXPECT_EQ(help.err, "");
+  EXPECT_EQ(run({"help"}).out, help.out);
+  EXPECT_EQ(run({"help", "plate"}).out, run({"plate", "--help"}).out);
   for (const char* verb : {"run", "plan", "presets", "dispersion", "clusters", "devices", "schema", "version"}) {
     EXPECT_THAT(help.out, HasSubstr(std::string("\n  ") + verb));
     const Ended own = run({verb, "--help"});

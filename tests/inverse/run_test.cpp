@@ -106,7 +106,8 @@ TEST_F(InverseRun, SaysWhatAWorkshopMayGetWrong)
   EXPECT_GT(all.at("judged").at("rel_l2").get<double>(), of("upright/run.json").at("judged").at("rel_l2").get<double>());
   EXPECT_THAT(bytes("out/tolerance.csv"), AllOf(StartsWith("error,receiver,cost,rel_l2\nnone,1,"), HasSubstr("\nheights off by 20 um,3,")));
   EXPECT_THAT(bytes("out/workshop.md"), AllOf(HasSubstr("walls between them that lean"), HasSubstr("## Tolerances")));
-  EXPECT_THAT(bytes("out/print.svg"), HasSubstr("200 mm from the facets"));
+  EXPECT_THAT(bytes("out/print_object.svg"), HasSubstr("The object, "));
+  EXPECT_THAT(bytes("out/print_3.svg"), HasSubstr("200 mm from the facets"));
   EXPECT_FALSE(fs::exists(folder / "upright/tolerance.csv"));
 }
 

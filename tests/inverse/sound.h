@@ -34,7 +34,7 @@ inline std::size_t bodies(const scene::Mesh& mesh)
   };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) {
-      auto edge = std::minmax(at(mesh, mesh.triangles[t][i]), at(mesh, mesh.triangles[t][(i + 1) % 3]));
+      const auto edge = std::minmax({at(mesh, mesh.triangles[t][i]), at(mesh, mesh.triangles[t][(i + 1) % 3])});
       const auto [known, added] = edges.try_emplace({edge.first, edge.second}, t);
       if (!added) parent[root(t)] = root(known->second);
     }

@@ -2,6 +2,8 @@
 // What a workshop gets: walls that lean, errors of making and what they do, the page to print.
 #include "inverse/facets/draft.h"
 #include "inverse/facets/files.h"
+#include "inverse/facets/plate.h"
+#include "inverse/facets/tool.h"
 #include "inverse/print_page.h"
 #include "inverse/tolerances.h"
 #include "tests/inverse/sound.h"
@@ -140,6 +142,21 @@ TEST(Tolerances, OfASlabAreThoseOfAWindow)
   EXPECT_LT(rows[4].costs[0].rel_l2, 5e-3); // cells part facets, whose rays are jittered
 }
 
+// Waves are the same on wide facets as on narrow ones: a slab of 16 x 16 facets, 6 mm wide each, is off like one of 80 x 80.
+TEST(Tolerances, WavesBendWideFacets)
+{
+  const auto off = [](int across) {
+    const Layout layout{.facets = {across, across}, .cells = {20, 20}, .distances = {100}};
+    const Solid solid = with_waves(layout, make_solid(layout, std::vector<glm::dvec2>(layout.facet_count())), 0.02, 1);
+    expect_closed(solid.mesh);
+    Judge judge(test::shared_context(), layout, solid, 1);
+    while (!judge.finished()) judge.advance();
+    return judge.costs({Target(400, 1.0 / 400)}).front().rel_l2;
+  };
+  const double narrow = off(80);
+  EXPECT_NEAR(off(16) / narrow, 1, 0.1);
+}
+
 // Cut within the second error.
 TEST(Tolerances, GoOnWithTheSameFigures)
 {
@@ -160,23 +177,143 @@ TEST(Tolerances, GoOnWithTheSameFigures)
   EXPECT_THAT(tolerance_table(is[0].costs, is), HasSubstr("\n| receivers 1 % farther | "));
 }
 
-// A unit of the drawing is a millimetre, and each receiver's picture is as large as the receiver.
-TEST(PrintPage, IsInRealSize)
+job::Picture grey_picture()
 {
-  const Layout layout{.size = {70, 40}, .receiver = {120, 90}, .cells = {3, 2}, .distances = {55, 88}};
-  auto picture = std::make_shared<job::Picture>();
-  picture->width = 3;
-  picture->height = 2;
-  picture->rgb.assign(18, 0.5f);
-  const std::string page = print_page(layout, {picture, picture}, "a & b");
+  job::Picture picture;
+  picture.width = 3;
+  picture.height = 2;
+  picture.rgb.assign(18, 0.5f);
+  return picture;
+}
+
+/// Of a page, in millimetres, which are the drawing's units, too.
+glm::dvec2 sheet_of(const std::string& page)
+{
   std::smatch found;
-  ASSERT_TRUE(
-      std::regex_search(page, found, std::regex("width=\"([0-9.]+)mm\" height=\"([0-9.]+)mm\" viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"")));
+  if (!std::regex_search(page, found, std::regex("width=\"([0-9.]+)mm\" height=\"([0-9.]+)mm\" viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"")))
+    return glm::dvec2(0);
   EXPECT_EQ(found[1], found[3]);
   EXPECT_EQ(found[2], found[4]);
-  EXPECT_THAT(page, AllOf(HasSubstr("width=\"70\" height=\"40\""), HasSubstr("a &amp; b"), HasSubstr("88 mm from the facets")));
-  const std::regex image("<image [^>]*width=\"120\" height=\"90\"");
-  EXPECT_EQ(std::distance(std::sregex_iterator(page.begin(), page.end(), image), std::sregex_iterator()), 2);
+  return {std::stod(found[1]), std::stod(found[2])};
+}
+
+// Each receiver's picture is as large as the receiver, on the smallest sheet that holds it.
+TEST(PrintPages, AreInRealSizeOnSheetsThatPrintersHave)
+{
+  Layout layout{.size = {70, 40}, .receiver = {120, 90}, .cells = {3, 2}, .distances = {55, 88}};
+  const std::string object = object_page(layout, "a & b"), second = receiver_page(layout, 1, grey_picture(), "a & b");
+  EXPECT_EQ(sheet_of(object), glm::dvec2(210, 297));
+  EXPECT_EQ(sheet_of(second), glm::dvec2(210, 297));
+  EXPECT_THAT(object, AllOf(HasSubstr("width=\"70\" height=\"40\""), HasSubstr("a &amp; b")));
+  EXPECT_THAT(second, HasSubstr("88 mm from the facets"));
+  EXPECT_TRUE(std::regex_search(second, std::regex("<image [^>]*width=\"120\" height=\"90\"")));
+  for (const auto& [receiver, sheet] : std::map<double, glm::dvec2>{{260, {297, 210}}, {274, {420, 297}}, {2000, {2024, 138}}}) {
+    layout.receiver = {receiver, 90};
+    EXPECT_EQ(sheet_of(receiver_page(layout, 0, grey_picture(), "")), sheet) << receiver;
+  }
+}
+
+/// Two facets with these gradients and heights, 2 mm wide each.
+std::pair<Layout, Solid> two_facets(double left, double right, double left_z, double right_z)
+{
+  const Layout layout{.size = {4, 2}, .facets = {2, 1}};
+  Solid solid;
+  solid.facets = {{{}, {left, 0}, left_z}, {{}, {right, 0}, right_z}};
+  return {layout, solid};
+}
+
+// A ball of radius r touches both sides of a V, which rise by alpha, at r sin(alpha) from its bottom, and comes no nearer.
+TEST(Tool, LeavesAFilletInAGroove)
+{
+  for (const double degrees : {10.0, 30.0, 45.0})
+    for (const double radius : {0.3, 1.0}) {
+      const double alpha = glm::radians(degrees), rise = std::tan(alpha);
+      const auto [layout, valley] = two_facets(rise, -rise, -rise, -rise); // z: the tool comes from below
+      EXPECT_NEAR(unreached_part(layout, valley, radius), radius * std::sin(alpha) / 2, 0.003) << degrees << " " << radius;
+      const auto [same, ridge] = two_facets(-rise, rise, rise, rise);
+      EXPECT_EQ(unreached_part(same, ridge, radius), 0);
+    }
+}
+
+// Beside a step of height h a ball stands as far away as it is wide there: sqrt(2 r h - h^2), or r where the step is higher than that.
+TEST(Tool, StandsBesideAWall)
+{
+  for (const double step : {0.1, 0.4, 3.0}) {
+    const auto [layout, solid] = two_facets(0, 0, 0, step);
+    const double radius = 0.8, strip = step < radius ? std::sqrt(2 * radius * step - step * step) : radius;
+    EXPECT_NEAR(unreached_part(layout, solid, radius), strip / 4, 0.003) << step;
+  }
+}
+
+// z = -x^2 / (2 R) is a trough for a tool from below, of curvature 1 / R at its bottom; the other way round it is a ridge.
+TEST(Tool, FindsTheTightestValleyOfALens)
+{
+  const Layout layout{.size = {20, 20}, .facets = {81, 81}};
+  const double radius = 40;
+  Grid corners(82, 82);
+  for (int y = 0; y < 82; ++y)
+    for (int x = 0; x < 82; ++x) corners(y, x) = -std::pow(x * 20.0 / 81 - 10, 2) / (2 * radius);
+  const Valley valley = tightest_valley(layout, Surface(layout.size, corners));
+  EXPECT_NEAR(valley.radius, radius, 0.01);
+  EXPECT_NEAR(valley.at.x, 0, 1e-9);
+  EXPECT_TRUE(std::isinf(tightest_valley(layout, Surface(layout.size, -corners)).radius));
+}
+
+TEST(Workshop, SaysWhatToolAndPrinterLeave)
+{
+  const Layout layout = test::small(9, 7);
+  const Solid solid = make_solid(layout, test::random_slopes(layout, 0.3, 4));
+  const std::string page = workshop_page(layout, solid, "glass", {0.2, solid.relief() / 12.5});
+  EXPECT_THAT(page, AllOf(HasSubstr("| a ball of 0.2 mm radius | cannot touch "), HasSubstr(" | 13 in the relief.")));
+  EXPECT_THAT(workshop_page(layout, solid, "glass"), Not(HasSubstr("a ball of")));
+}
+
+/// No two overlap or are nearer than the gap, and none is beside the plate.
+void expect_apart(const glm::dvec2& plate, double gap, const std::vector<Placed>& bodies)
+{
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const glm::dvec2 rim = plate / 2.0 - glm::abs(bodies[i].middle) - bodies[i].size / 2.0;
+    EXPECT_GE(std::min(rim.x, rim.y), gap - 1e-6);
+    for (std::size_t j = 0; j < i; ++j) {
+      const glm::dvec2 between = glm::abs(bodies[i].middle - bodies[j].middle) - (bodies[i].size + bodies[j].size) / 2.0;
+      EXPECT_GE(std::max(between.x, between.y), gap - 1e-6) << i << " " << j;
+    }
+  }
+}
+
+TEST(Plate, KeepsObjectsApart)
+{
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> side(10, 60);
+  std::vector<Placed> bodies(24);
+  for (Placed& body : bodies) body.size = {side(random), side(random)};
+  const glm::dvec2 plate(300, 330);
+  ASSERT_FALSE(put_on_shelves(plate, 4, bodies));
+  expect_apart(plate, 4, bodies);
+}
+
+// Three of 46 mm with gaps of 4 mm fill a row of 154 mm exactly.
+TEST(Plate, IsFilledToItsRimAndNoFurther)
+{
+  std::vector<Placed> bodies(6, {"", {46, 46}, {}});
+  EXPECT_FALSE(put_on_shelves({154, 104}, 4, bodies));
+  EXPECT_EQ(put_on_shelves({153.9, 104}, 4, bodies), 4u);
+  EXPECT_EQ(put_on_shelves({154, 103.9}, 4, bodies), 3u);
+  bodies[2].size.x = 200;
+  EXPECT_EQ(put_on_shelves({154, 1000}, 4, bodies), 2u);
+}
+
+TEST(Plate, IsAsManyClosedBodies)
+{
+  const Layout layout = test::small(9, 7);
+  const scene::Mesh mesh = make_solid(layout, test::random_slopes(layout, 0.3, 4)).mesh;
+  std::vector<Placed> bodies(3, {"", layout.size, {}});
+  ASSERT_FALSE(put_on_shelves({30, 30}, 1, bodies));
+  const scene::Mesh plate = plate_mesh({mesh, mesh, mesh}, bodies);
+  const scene::MeshReport report = scene::inspect(plate), one = scene::inspect(mesh);
+  EXPECT_TRUE(report.closed());
+  EXPECT_NEAR(report.signed_volume, 3 * one.signed_volume, 1e-3 * one.signed_volume);
+  EXPECT_EQ(test::bodies(plate), 3u);
 }
 
 } // namespace nephroid::workshop_test

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/facets/files.h"
 
+#include "inverse/facets/tool.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,6 +43,26 @@ std::string wall_angle(const Solid& solid)
                                       : "90 degrees, as all of them";
 }
 
+/// What a ball end mill leaves.
+std::string reach_of(const Layout& layout, const Solid& solid, double radius)
+{
+  if (!solid.surface)
+    return fmt::format("cannot touch {:.3g} % of the facets, whose light its fillets send elsewhere",
+                       100 * unreached_part(layout, solid, radius));
+  const Valley valley = tightest_valley(layout, *solid.surface);
+  if (valley.radius == std::numeric_limits<double>::infinity()) return "reaches everything: there is no valley";
+  return fmt::format("{}: the tightest valley has a radius of {:.4g} mm, at ({:.4g}, {:.4g}) mm from the middle",
+                     valley.radius >= radius ? "reaches everything" : "is too large", valley.radius, valley.at.x, valley.at.y);
+}
+
+std::string layers_of(const Solid& solid, double layer)
+{
+  return fmt::format(
+      "{:.0f} in the relief. A layer's top is flat and bends no light: polish or coat the steps away, or print with the front "
+      "upright",
+      std::ceil(solid.relief() / layer));
+}
+
 } // namespace
 
 void write_obj(const scene::Mesh& mesh, ByteSink& to)
@@ -65,7 +87,7 @@ void write_stl(const scene::Mesh& mesh, ByteSink& to)
   }
 }
 
-std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material)
+std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material, const Making& making)
 {
   std::string page = "# For the workshop\n\n| what | figure |\n|---|---|\n";
   const auto row = [&](const char* what, const std::string& figure) {
@@ -86,6 +108,9 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
   row("steepest wall", solid.wall_area > 0 ? wall_angle(solid) : "none");
   row("highest wall", mm(solid.highest_wall));
   row("area of the walls between facets", fmt::format("{:.4g} mm2", solid.wall_area));
+  if (making.tool_radius)
+    row(fmt::format("a ball of {:.4g} mm radius", *making.tool_radius).c_str(), reach_of(layout, solid, *making.tool_radius));
+  if (making.layer) row(fmt::format("layers of {:.4g} mm along the front", *making.layer).c_str(), layers_of(solid, *making.layer));
   page +=
       fmt::format("\nThe front is flat and the light's way in. {} on the other side.\n\n",
                   solid.wall_area > 0 ? (solid.steepest_wall_deg < 90 ? "The facets, with walls between them that lean, are"

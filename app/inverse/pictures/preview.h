@@ -22,4 +22,7 @@ std::vector<std::string> picture_notes(const Settings& settings, const Layout& l
 /// How deep a lens for this picture becomes, in millimetres: that of a coarse one.
 double estimated_relief(const Layout& layout, const Target& target);
 
+/// What leaning walls will take, and layers that are too thick for the facets.
+std::vector<std::string> workshop_notes(const Settings& settings, const Layout& layout);
+
 } // namespace nephroid::inverse
