@@ -81,15 +81,18 @@ std::string object_page(const Layout& layout, const std::string& name)
 std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast, const std::string& name)
 {
   const glm::dvec2 most = glm::max(layout.size, layout.receiver), sheet = sheet_for(most, lines_above),
-                   middle(sheet.x / 2, margin + lines_above * text_line + most.y / 2), corner = middle - layout.receiver / 2.0;
+                   middle(sheet.x / 2, margin + lines_above * text_line + most.y / 2), corner = middle - layout.receiver / 2.0,
+                   offset = layout.offset(receiver);
   return begun(sheet, name,
                fmt::format("Receiver {}: {:.6g} x {:.6g} mm, {:.6g} mm from the facets, seen along the light", receiver + 1,
                            layout.receiver.x, layout.receiver.y, layout.distances[receiver]),
-               "(red: the object)") +
+               offset == glm::dvec2(0)
+                   ? "(red: the object)"
+                   : fmt::format("its middle: {:.6g} mm to the right and {:.6g} mm above that of the object", offset.x, offset.y)) +
          fmt::format("<image x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" preserveAspectRatio=\"none\" "
                      "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n",
                      corner.x, corner.y, layout.receiver.x, layout.receiver.y, base64(image::png(cast.width, cast.height, cast.rgb))) +
-         outline(middle, layout.receiver, solid) + outline(middle, layout.size, dashed) + "</svg>\n";
+         outline(middle, layout.receiver, solid) + (offset == glm::dvec2(0) ? outline(middle, layout.size, dashed) : "") + "</svg>\n";
 }
 
 std::string plate_page(const glm::dvec2& plate, const std::vector<Placed>& bodies)
