@@ -16,6 +16,8 @@
 // Candidates across and down, of which the best of every part are scored exactly.
 #define LATTICE 32
 #define PARTS 2
+// Then so many across and down about a candidate, at most: the cells that a step of the lattice passes over.
+#define MOST_FINE 8
 
 #define SEARCH_ARGUMENTS                                                                                                                   \
   __global const DeviceLayout* layout, global const DeviceReceiver *receivers, global const DeviceIncoming *incoming, global const float *heights,   \
@@ -153,36 +155,37 @@ __kernel void smear_x(__global const DeviceLayout* layout, __global const Device
 #define GATHER(from, i)                                                                                                                   \
   (float8)((from)[i.s0], (from)[i.s1], (from)[i.s2], (from)[i.s3], (from)[i.s4], (from)[i.s5], (from)[i.s6], (from)[i.s7])
 
-// The rows part, part + PARTS, ... of a lattice of points on the last receiver, LATTICE across and down, moved at random by `offset`: the
-// lowest sum of what lacks where a facet's light to each point falls, for every eighth point of a row, and the slope to it. Infinite: none
-// is reachable.
-static SEPARATE void best_of_lattice(const Search* s, global const float* smeared, float2 offset, int part, float lowest_of[8], float2 slopes[8])
+// Eight slopes at a time, of which each is the best of those that were tried in its place; infinite: none was reachable.
+typedef struct {
+  float8 lowest, x, y;
+} Eight;
+
+// Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where a facet's light falls.
+static SEPARATE void try_lattice(const Search* s, global const float* smeared, float8 x_from, float8 y_from, float2 step, int2 count, Eight* best)
 {
   global const DeviceLayout* layout = s->layout;
-  const float last = s->receivers[layout->receivers - 1].distance + s->facet.height;
-  const float2 step = (float2)(layout->receiver_x, layout->receiver_y) / (float)LATTICE,
-               corner = offset * step - 0.5f * (float2)(layout->receiver_x, layout->receiver_y);
-  float8 lowest = (float8)(INFINITY), best_x = (float8)(0.0f), best_y = (float8)(0.0f);
-  for (int k = part; k < LATTICE; k += PARTS)
-    for (int i = 0; i < LATTICE; i += 8) {
-      const float y = (corner.y + (float)k * step.y - s->facet.middle.y) / last;
-      const float8 x = (corner.x + ((float)i + LANES) * step.x - s->facet.middle.x) / last;
+  float8 lowest = best->lowest, best_x = best->x, best_y = best->y;
+  for (int k = 0; k < count.y; ++k)
+    for (int i = 0; i < count.x; ++i) {
+      const float8 x = x_from + (float)i * step.x, y = y_from + (float)k * step.y;
       float8 sum = (float8)(0.0f);
       for (int j = 0; j < layout->receivers; ++j) {
         const float way = s->receivers[j].distance + s->facet.height;
-        const float down = (0.5f * layout->receiver_y - (s->facet.middle.y + y * way)) / layout->cell_y;
-        const float8 across = (s->facet.middle.x + x * way + 0.5f * layout->receiver_x) / layout->cell_x;
-        const int row = (int)clamp(floor(down), -1.0f, (float)layout->cells_y);
-        const int8 column = convert_int8(clamp(floor(across), -1.0f, (float)layout->cells_x));
-        global const float* cells = smeared + rimmed_at(layout, j, 0, row);
-        sum += GATHER(cells, column);
+        const float8 across = (s->facet.middle.x + x * way + 0.5f * layout->receiver_x) / layout->cell_x,
+                     down = (0.5f * layout->receiver_y - (s->facet.middle.y + y * way)) / layout->cell_y;
+        const int8 column = convert_int8(clamp(floor(across), -1.0f, (float)layout->cells_x)),
+                   row = convert_int8(clamp(floor(down), -1.0f, (float)layout->cells_y));
+        const int8 at = row * (layout->cells_x + 2) + column;
+        global const float* cells = smeared + rimmed_at(layout, j, 0, 0);
+        sum += GATHER(cells, at);
       }
 #if NEPHROID_SMOOTHS || NEPHROID_INCOMING
-      float each[8], xs[8];
+      float each[8], xs[8], ys[8];
       vstore8(sum, 0, each);
       vstore8(x, 0, xs);
+      vstore8(y, 0, ys);
       for (int lane = 0; lane < 8; ++lane) {
-        const float2 slope = (float2)(xs[lane], y);
+        const float2 slope = (float2)(xs[lane], ys[lane]);
 #if NEPHROID_SMOOTHS
         each[lane] -= dot(facet_normal(slope, layout->n, s->facet.sines), s->pull);
 #endif
@@ -195,13 +198,11 @@ static SEPARATE void best_of_lattice(const Search* s, global const float* smeare
 #endif
       lowest = select(lowest, sum, better);
       best_x = select(best_x, x, better);
-      best_y = select(best_y, (float8)(y), better);
+      best_y = select(best_y, y, better);
     }
-  float xs[8], ys[8];
-  vstore8(lowest, 0, lowest_of);
-  vstore8(best_x, 0, xs);
-  vstore8(best_y, 0, ys);
-  for (int lane = 0; lane < 8; ++lane) slopes[lane] = (float2)(xs[lane], ys[lane]);
+  best->lowest = lowest;
+  best->x = best_x;
+  best->y = best_y;
 }
 
 // Facet order[first + i] looks for found[i]; done[i]: it has none that is better.
@@ -216,22 +217,33 @@ __kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global con
   const float begin = score(&s, now);
   float2 from = now;
   float lowest = begin;
-  const float2 offset = random4(seed, sweep, index, 0u, STREAM_FACETS).xy;
+  // Points on the last receiver, moved at random: the rows part, part + PARTS, ..., and then cells about the best of every eighth column.
+  const float last = receivers[layout->receivers - 1].distance + s.facet.height;
+  const float2 receiver = (float2)(layout->receiver_x, layout->receiver_y), offset = random4(seed, sweep, index, 0u, STREAM_FACETS).xy;
+  float2 step = receiver / (LATTICE * last);
+  const float2 corner = offset * step - (0.5f * receiver + s.facet.middle) / last;
+  const int2 fine = clamp((int2)(layout->cells_x, layout->cells_y) / LATTICE, 1, MOST_FINE);
+  const float2 fine_step = step / convert_float2(fine);
   for (int part = 0; part < PARTS; ++part) {
-    float there[8];
-    float2 candidates[8];
-    best_of_lattice(&s, smeared, offset, part, there, candidates);
+    Eight best = {(float8)(INFINITY), (float8)(0.0f), (float8)(0.0f)};
+    try_lattice(&s, smeared, corner.x + LANES * step.x, (float8)(corner.y + (float)part * step.y), (float2)(8, PARTS) * step,
+                (int2)(LATTICE / 8, LATTICE / PARTS), &best);
+    try_lattice(&s, smeared, best.x - 0.5f * (step.x - fine_step.x), best.y - 0.5f * (step.y - fine_step.y), fine_step, fine, &best);
+    float there[8], xs[8], ys[8];
+    vstore8(best.lowest, 0, there);
+    vstore8(best.x, 0, xs);
+    vstore8(best.y, 0, ys);
     for (int lane = 0; lane < 8; ++lane) {
       if (there[lane] == INFINITY) continue;
-      there[lane] = score(&s, candidates[lane]);
-      if (there[lane] < lowest) {
-        lowest = there[lane];
-        from = candidates[lane];
+      const float2 candidate = (float2)(xs[lane], ys[lane]);
+      const float sum = score(&s, candidate);
+      if (sum < lowest) {
+        lowest = sum;
+        from = candidate;
       }
     }
   }
-  const float last = receivers[layout->receivers - 1].distance;
-  float2 step = (float2)(layout->receiver_x, layout->receiver_y) / (LATTICE * last);
+  step = fine_step;
   while (step.x > FINEST * layout->cell_x / last || step.y > FINEST * layout->cell_y / last) {
     step *= 0.5f;
     for (int k = 0; k < STEPS; ++k) {
