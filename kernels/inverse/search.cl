@@ -171,8 +171,8 @@ static SEPARATE void try_lattice(const Search* s, global const float* smeared, f
       float8 sum = (float8)(0.0f);
       for (int j = 0; j < layout->receivers; ++j) {
         const float way = s->receivers[j].distance + s->facet.height;
-        const float8 across = (s->facet.middle.x + x * way + 0.5f * layout->receiver_x) / layout->cell_x,
-                     down = (0.5f * layout->receiver_y - (s->facet.middle.y + y * way)) / layout->cell_y;
+        const float2 on_axis = in_cells(layout, s->facet.middle), per_slope = way / (float2)(layout->cell_x, -layout->cell_y);
+        const float8 across = on_axis.x + per_slope.x * x, down = on_axis.y + per_slope.y * y;
         const int8 column = convert_int8(clamp(floor(across), -1.0f, (float)layout->cells_x)),
                    row = convert_int8(clamp(floor(down), -1.0f, (float)layout->cells_y));
         const int8 at = row * (layout->cells_x + 2) + column;
@@ -243,7 +243,7 @@ __kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global con
       }
     }
   }
-  step = fine_step;
+  step = 4.0f * fine_step;
   while (step.x > FINEST * layout->cell_x / last || step.y > FINEST * layout->cell_y / last) {
     step *= 0.5f;
     for (int k = 0; k < STEPS; ++k) {
