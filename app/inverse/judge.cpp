@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace nephroid::inverse {
 
@@ -73,9 +74,9 @@ bool spreads(const Layout& l) { return l.sun_radius > 0 || l.scatter > 0 || !l.i
 
 SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads)
 {
-  const scene::Bvh bvh = scene::build_bvh(solid.mesh);
-  nodes = compute::Buffer(context, "solid's tree", bvh.nodes);
-  blocks = compute::Buffer(context, "solid's triangles", bvh.blocks);
+  scene::Bvh bvh = scene::build_bvh(solid.mesh);
+  nodes = compute::Buffer(context, "solid's tree", std::exchange(bvh.nodes, {})); // a large one is in memory once
+  blocks = compute::Buffer(context, "solid's triangles", std::exchange(bvh.blocks, {}));
   normals = compute::Buffer(context, "solid's normals", normals_of(solid));
   root = bvh.root;
   compute::Defines defines = scene::tree_defines(bvh);
@@ -127,6 +128,12 @@ Judge::Judge(const compute::Context& context, const Layout& layout, const Solid&
   light_.assign(screens.size(), std::vector<double>(layout.cell_count()));
 }
 
+std::uint64_t rays_of(const Layout& layout)
+{
+  const auto along = static_cast<std::uint64_t>(rays_along(layout));
+  return layout.facet_count() * along * along;
+}
+
 void Judge::advance()
 {
   const int rays_a_row = layout_.facets.x * front_.along * front_.along;
@@ -159,6 +166,7 @@ void Judge::read_sums()
   for (std::size_t i = 0; i < fates.size(); ++i) sums[i % FATES] += fates[i];
   const auto facets = [&](int fate) { return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA; };
   sum_ = {facets(FATE_REFLECTED), facets(FATE_LOST), facets(FATE_SENT), facets(FATE_BY_WALLS)};
+  if (finished()) solid_ = {}; // no ray follows
 }
 
 Fates Judge::fates() const

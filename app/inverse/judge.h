@@ -41,6 +41,7 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
 
 /// What kernels need of a solid.
 struct SolidOnDevice {
+  SolidOnDevice() = default;
   /// spreads: light has a width, or a band of wavelengths. Throws failed where the device has not enough memory.
   SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads);
 
@@ -49,6 +50,9 @@ struct SolidOnDevice {
   int root = 0;
   std::optional<compute::Program> program; ///< inverse/judge.cl
 };
+
+/// What falls on the facets of such an object.
+std::uint64_t rays_of(const Layout& layout);
 
 /// Rays fall evenly on all facets, a jittered lattice on each. The same seed gives the same bits on any number of threads.
 class Judge {

@@ -75,7 +75,7 @@ InversePlan make_plan(const preset::Preset& preset)
   plan.targets = make_targets(preset, plan.layout);
   plan.best = best_possible(plan.layout, plan.targets);
   const Layout& l = plan.layout;
-  const std::uint64_t triangles = triangles_of(settings(preset), l);
+  const std::uint64_t triangles = plan.triangles = triangles_of(settings(preset), l);
   if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Place(preset.source) / "inverse", settings(preset).mesh_error, triangles);
   plan.engine = "inverse";
   plan.layers = 1;

@@ -151,7 +151,7 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
                  (float4)(1.0f + slope.x * g.x, slope.y * g.x, slope.x * g.y, 1.0f + slope.y * g.y),
                  (float4)(0.0f),
                  {(float2)(0.0f), (float2)(1.0f)},
-                 transmitted(slope, n, facet->sines) / transmitted((float2)(0.0f), n, (float2)(0.0f))};
+                 transmitted(slope, n, facet->sines) * layout->one_over_straight};
 #if NEPHROID_INCOMING
   const float2 inside = slope_inside(facet->sines, n);
   if (!layout->free_heights) beams.lit = lit_part(layout, facet, inside, slope, g);

@@ -11,7 +11,7 @@
 
 // Refining takes so many steps of one length at most, and halves them until they are this part of a cell.
 #define STEPS 2
-#define FINEST 0.125f
+#define FINEST 0.25f
 
 // Candidates across and down, of which the best of every part are scored exactly.
 #define LATTICE 32
@@ -224,23 +224,28 @@ __kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global con
   const float2 corner = offset * step - (0.5f * receiver + s.facet.middle) / last;
   const int2 fine = clamp((int2)(layout->cells_x, layout->cells_y) / LATTICE, 1, MOST_FINE);
   const float2 fine_step = step / convert_float2(fine);
+  Eight best = {(float8)(INFINITY), (float8)(0.0f), (float8)(0.0f)};
   for (int part = 0; part < PARTS; ++part) {
-    Eight best = {(float8)(INFINITY), (float8)(0.0f), (float8)(0.0f)};
+    Eight own = {(float8)(INFINITY), (float8)(0.0f), (float8)(0.0f)};
     try_lattice(&s, smeared, corner.x + LANES * step.x, (float8)(corner.y + (float)part * step.y), (float2)(8, PARTS) * step,
-                (int2)(LATTICE / 8, LATTICE / PARTS), &best);
-    try_lattice(&s, smeared, best.x - 0.5f * (step.x - fine_step.x), best.y - 0.5f * (step.y - fine_step.y), fine_step, fine, &best);
-    float there[8], xs[8], ys[8];
-    vstore8(best.lowest, 0, there);
-    vstore8(best.x, 0, xs);
-    vstore8(best.y, 0, ys);
-    for (int lane = 0; lane < 8; ++lane) {
-      if (there[lane] == INFINITY) continue;
-      const float2 candidate = (float2)(xs[lane], ys[lane]);
-      const float sum = score(&s, candidate);
-      if (sum < lowest) {
-        lowest = sum;
-        from = candidate;
-      }
+                (int2)(LATTICE / 8, LATTICE / PARTS), &own);
+    try_lattice(&s, smeared, own.x - 0.5f * (step.x - fine_step.x), own.y - 0.5f * (step.y - fine_step.y), fine_step, fine, &own);
+    const int8 better = own.lowest < best.lowest;
+    best.lowest = select(best.lowest, own.lowest, better);
+    best.x = select(best.x, own.x, better);
+    best.y = select(best.y, own.y, better);
+  }
+  float there[8], xs[8], ys[8];
+  vstore8(best.lowest, 0, there);
+  vstore8(best.x, 0, xs);
+  vstore8(best.y, 0, ys);
+  for (int lane = 0; lane < 8; ++lane) {
+    if (there[lane] == INFINITY) continue;
+    const float2 candidate = (float2)(xs[lane], ys[lane]);
+    const float sum = score(&s, candidate);
+    if (sum < lowest) {
+      lowest = sum;
+      from = candidate;
     }
   }
   step = 4.0f * fine_step;

@@ -110,6 +110,20 @@ TEST_F(InverseRun, SaysWhatAWorkshopMayGetWrong)
   EXPECT_FALSE(fs::exists(folder / "upright/tolerance.csv"));
 }
 
+// The search gets what the judge leaves: nothing of a millisecond, and so much of three seconds that both end in time.
+TEST_F(InverseRun, LeavesTheJudgeItsTime)
+{
+  const std::string note = "stop.seconds ended the search in sweep";
+  EXPECT_THAT(run_to("none", {"--seconds", "0.001"}).err, HasSubstr(note + " 1,"));
+  EXPECT_EQ(of("none/run.json").at("sweeps"), 0);
+  EXPECT_GT(of("none/run.json").at("judged").at("rel_l2").get<double>(), 0.3); // as random slopes cast them
+  EXPECT_THAT(run_to("all", {"--seconds", "1000"}).err, Not(HasSubstr(note)));
+  const Ended some = run_to("some", {"--seconds", "3", "--set", "inverse.facets=[256, 256]", "--set", "inverse.cells=[128, 128]"});
+  const json seconds = of("some/run.json").at("phase_seconds");
+  EXPECT_LT(seconds.at("slopes").get<double>() + seconds.at("judge").get<double>(), 4);
+  EXPECT_EQ(some.err.find(note) == std::string::npos, of("some/run.json").at("believed").at("rel_l2").get<double>() < 0.112) << some.err;
+}
+
 TEST_F(InverseRun, GoesOnWithTheSameBitsOnAnyThreads)
 {
   run_to("whole", {"--passes", "3"}, {{"POCL_MAX_PTHREAD_COUNT", "1"}});

@@ -91,6 +91,7 @@ shared::DeviceLayout device_layout(const Layout& l)
                             .n = number(l.n),
                             .steepest = number(l.steepest),
                             .usable = number(usable_slope(l)),
+                            .one_over_straight = number(1 / transmitted({0, 0}, l.n)),
                             .sun_radius = number(l.sun_radius),
                             .scatter = number(l.scatter),
                             .spreads = l.lamp ? number(1 / (l.lamp->z - l.thickness + l.thickness / l.n)) : 0,
