@@ -104,9 +104,10 @@ public:
       add_files(snapshot);
       add_frames(snapshot);
       if (!method_->finished() && !had_all_steps())
-        snapshot.warnings.push_back(fmt::format("stop.seconds ended the search in {} {}, to leave time for the judge; with more seconds the "
-                                                "pictures become better",
-                                                method_->units().step, method_->steps() + 1));
+        snapshot.warnings.push_back(
+            fmt::format("stop.seconds ended the search in {} {}, to leave time for the judge; with more seconds the "
+                        "pictures become better",
+                        method_->units().step, method_->steps() + 1));
     }
     return snapshot;
   }
@@ -166,7 +167,8 @@ private:
   {
     if (method_->finished() || had_all_steps()) return true;
     if (!preset_.stop.seconds) return false;
-    if (!judge_needs_) judge_needs_ = judge_seconds(context_, layout_, triangles_) * (settings(preset_).tolerances ? 1 + Tolerances::count : 1);
+    if (!judge_needs_)
+      judge_needs_ = judge_seconds(context_, layout_, triangles_) * (settings(preset_).tolerances ? 1 + Tolerances::count : 1);
     return looked_for() + (method_->part() == 0 ? last_step_seconds() : 0) >= search_seconds();
   }
 
@@ -231,7 +233,10 @@ private:
   bool judged() const { return judge_ && judge_->finished(); }
 
   /// Of the judge's work, each error of the tolerances being as much as the object itself.
-  double judged_part() const { return tolerances_ ? (judge_->part() + Tolerances::count * tolerances_->part()) / (1 + Tolerances::count) : judge_->part(); }
+  double judged_part() const
+  {
+    return tolerances_ ? (judge_->part() + Tolerances::count * tolerances_->part()) / (1 + Tolerances::count) : judge_->part();
+  }
 
   /// As judged where that is done, else as believed.
   const std::vector<double>& light(std::size_t receiver) const { return judged() ? judge_->light(receiver) : method_->light(receiver); }
@@ -374,7 +379,7 @@ private:
   Began began_;
   std::vector<CostRow> history_;
   double method_seconds_ = 0, judge_seconds_ = 0;
-  std::optional<double> judge_needs_; ///< seconds; where time ends the run, from its first step on
+  std::optional<double> judge_needs_;  ///< seconds; where time ends the run, from its first step on
   std::shared_ptr<const Solid> solid_; ///< from when the slopes are found
   std::optional<Judge> judge_;
   std::optional<Tolerances> tolerances_; ///< where they are wanted, from when the judge begins
