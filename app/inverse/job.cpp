@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of engine 3: slopes, then the solid, then its judgement.
-#include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
-#include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "inverse/facets/files.h"
 #include "inverse/figures.h"
 #include "inverse/judge.h"
 #include "inverse/judge_time.h"
-#include "inverse/lens/lens.h"
+#include "inverse/method.h"
 #include "inverse/object_view.h"
 #include "inverse/print_page.h"
 #include "inverse/sheet.h"
-#include "inverse/thesis/pipeline.h"
 #include "inverse/tolerances.h"
 
 #include <fmt/format.h>
@@ -37,17 +34,6 @@ std::string material_of(const Settings& s, double n)
 {
   const std::string name = s.index.type == preset::Dispersion::Type::file ? s.index.file + ", " : "";
   return fmt::format("{}index of refraction {:.6g} at {} nm", name, n, s.wavelength_nm);
-}
-
-/// As the preset says. The layout and the targets outlive it.
-std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets,
-                                    const compute::Context& context)
-{
-  const Settings& s = settings(preset);
-  if (s.method == Settings::Method::thesis) return std::make_unique<Pipeline>(layout, targets, s.thesis, preset.seed);
-  if (s.method == Settings::Method::lens)
-    return std::make_unique<Lens>(layout, targets.front(), s.mesh_error, Place(preset.source) / "inverse");
-  return std::make_unique<Assignment>(context, layout, targets, preset.seed);
 }
 
 struct CostRow {
