@@ -3,6 +3,7 @@
 // with a facet before them: so that each gains as much as it would alone.
 #include "kernels/inverse/light.h"
 #include "kernels/tracing/random.h"
+#include "kernels/tracing/registers.h"
 
 // 1: neighbours are to be alike.
 #ifndef NEPHROID_SMOOTHS
@@ -165,17 +166,18 @@ static SEPARATE void try_lattice(const Search* s, global const float* smeared, f
 {
   global const DeviceLayout* layout = s->layout;
   float8 lowest = best->lowest, best_x = best->x, best_y = best->y;
-  for (int k = 0; k < count.y; ++k)
+  ROLLED
+  for (int k = 0; k < count.y; ++k) {
+    ROLLED
     for (int i = 0; i < count.x; ++i) {
       const float8 x = x_from + (float)i * step.x, y = y_from + (float)k * step.y;
       float8 sum = (float8)(0.0f);
+      ROLLED
       for (int j = 0; j < layout->receivers; ++j) {
         const float way = s->receivers[j].distance + s->facet.height;
         const float2 on_axis = in_cells(layout, s->facet.middle), per_slope = way / (float2)(layout->cell_x, -layout->cell_y);
-        const float8 across = on_axis.x + per_slope.x * x, down = on_axis.y + per_slope.y * y;
-        const int8 column = convert_int8(clamp(floor(across), -1.0f, (float)layout->cells_x)),
-                   row = convert_int8(clamp(floor(down), -1.0f, (float)layout->cells_y));
-        const int8 at = row * (layout->cells_x + 2) + column;
+        int8 at = (layout->cells_x + 2) * convert_int8(clamp(floor(on_axis.y + per_slope.y * y), -1.0f, (float)layout->cells_y));
+        at += convert_int8(clamp(floor(on_axis.x + per_slope.x * x), -1.0f, (float)layout->cells_x));
         global const float* cells = smeared + rimmed_at(layout, j, 0, 0);
         sum += GATHER(cells, at);
       }
@@ -200,6 +202,7 @@ static SEPARATE void try_lattice(const Search* s, global const float* smeared, f
       best_x = select(best_x, x, better);
       best_y = select(best_y, y, better);
     }
+  }
   best->lowest = lowest;
   best->x = best_x;
   best->y = best_y;
