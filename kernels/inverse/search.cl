@@ -165,12 +165,12 @@ typedef struct {
 static SEPARATE void try_lattice(const Search* s, global const float* smeared, float8 x_from, float8 y_from, float2 step, int2 count, Eight* best)
 {
   global const DeviceLayout* layout = s->layout;
-  float8 lowest = best->lowest, best_x = best->x, best_y = best->y;
+  SET_ASIDE float8 lowest = best->lowest, best_x = best->x, best_y = best->y, x_begin = x_from, y_begin = y_from;
   ROLLED
   for (int k = 0; k < count.y; ++k) {
     ROLLED
     for (int i = 0; i < count.x; ++i) {
-      const float8 x = x_from + (float)i * step.x, y = y_from + (float)k * step.y;
+      const float8 x = x_begin + (float)i * step.x, y = y_begin + (float)k * step.y;
       float8 sum = (float8)(0.0f);
       ROLLED
       for (int j = 0; j < layout->receivers; ++j) {
