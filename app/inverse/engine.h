@@ -18,6 +18,7 @@ struct InversePlan : plan::Plan {
   Layout layout;
   std::vector<Target> targets; ///< of each receiver
   std::vector<Target> best;    ///< how close to each an object comes at best: pictures/preview.h
+  std::uint64_t triangles = 0; ///< of the solid, about
 };
 
 /// Reads the index and the pictures. Throws bad_input as make_layout and make_targets do.

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of engine 3: slopes, then the solid, then its judgement.
-#include "inverse/assign/assignment.h"
 #include "inverse/assign/conflicts.h"
-#include "inverse/bending.h"
 #include "inverse/engine.h"
 #include "inverse/facets/files.h"
+#include "inverse/figures.h"
 #include "inverse/judge.h"
-#include "inverse/lens/lens.h"
+#include "inverse/judge_time.h"
+#include "inverse/method.h"
 #include "inverse/object_view.h"
 #include "inverse/print_page.h"
 #include "inverse/sheet.h"
-#include "inverse/thesis/pipeline.h"
 #include "inverse/tolerances.h"
 
 #include <fmt/format.h>
@@ -38,17 +37,6 @@ std::string material_of(const Settings& s, double n)
                      s.light.spectrum ? "in the mean over the light's luminance" : fmt::format("at {} nm", s.wavelength_nm));
 }
 
-/// As the preset says. The layout and the targets outlive it.
-std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets,
-                                    const compute::Context& context)
-{
-  const Settings& s = settings(preset);
-  if (s.method == Settings::Method::thesis) return std::make_unique<Pipeline>(layout, targets, s.thesis, preset.seed);
-  if (s.method == Settings::Method::lens)
-    return std::make_unique<Lens>(layout, targets.front(), s.mesh_error, Place(preset.source) / "inverse");
-  return std::make_unique<Assignment>(context, layout, targets, preset.seed);
-}
-
 struct CostRow {
   double step = 0, seconds = 0;
   Cost cost;
@@ -57,7 +45,7 @@ struct CostRow {
 class InverseJob final : public job::Job {
 public:
   InverseJob(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context)
-      : context_(context), preset_(preset), layout_(plan.layout), targets_(plan.targets), best_(plan.best),
+      : context_(context), preset_(preset), layout_(plan.layout), targets_(plan.targets), best_(plan.best), triangles_(plan.triangles),
         method_(make_method(preset, layout_, targets_, context))
   {
     note_step();
@@ -82,7 +70,7 @@ public:
     p.work_seconds = method_seconds_ + judge_seconds_;
     const double steps = static_cast<double>(p.step - began_.steps) + method_->part();
     const double looked = std::max(most_steps() ? steps / static_cast<double>(*most_steps()) : 0,
-                                   preset_.stop.seconds ? (method_seconds_ - began_.seconds) / *preset_.stop.seconds : 0);
+                                   preset_.stop.seconds ? looked_for() / std::max(looked_for(), search_seconds()) : 0);
     p.fraction = judge_ ? 1 - judge_part + judge_part * judged_part() : std::min(1.0, looked) * (1 - judge_part);
     p.units = method_->units();
     return p;
@@ -102,6 +90,11 @@ public:
     if (finished()) {
       add_files(snapshot);
       add_frames(snapshot);
+      if (!method_->finished() && !had_all_steps())
+        snapshot.warnings.push_back(
+            fmt::format("stop.seconds ended the search in {} {}, to leave time for the judge; with more seconds the "
+                        "pictures become better",
+                        method_->units().step, method_->steps() + 1));
     }
     return snapshot;
   }
@@ -115,6 +108,7 @@ public:
       layout_ = std::move(plan.layout);
       targets_ = std::move(plan.targets);
       best_ = std::move(plan.best);
+      judge_needs_.reset();
       method_->relight();
       stop_judging();
       in_view_.reset();
@@ -156,10 +150,27 @@ private:
     stop_judging();
   }
 
-  bool found() const
+  bool found()
   {
-    if (preset_.stop.seconds && method_seconds_ - began_.seconds >= *preset_.stop.seconds) return true;
-    return method_->finished() || (most_steps() && method_->steps() - began_.steps >= *most_steps());
+    if (method_->finished() || had_all_steps()) return true;
+    if (!preset_.stop.seconds) return false;
+    if (!judge_needs_)
+      judge_needs_ = judge_seconds(context_, layout_, triangles_) * (settings(preset_).tolerances ? 1 + Tolerances::count : 1);
+    return looked_for() + (method_->part() == 0 ? last_step_seconds() : 0) >= search_seconds();
+  }
+
+  bool had_all_steps() const { return most_steps() && method_->steps() - began_.steps >= *most_steps(); }
+
+  double looked_for() const { return method_seconds_ - began_.seconds; }
+
+  /// Of the stop's seconds, what the judge leaves; once found() has asked how long it takes.
+  double search_seconds() const { return *preset_.stop.seconds - judge_needs_.value_or(0); }
+
+  /// A step is not begun where it would not end in time; 0 before the first.
+  double last_step_seconds() const
+  {
+    if (method_->steps() == began_.steps || history_.size() < 2) return 0;
+    return history_.back().seconds - history_[history_.size() - 2].seconds;
   }
 
   /// Empty: until the seconds are over.
@@ -209,7 +220,10 @@ private:
   bool judged() const { return judge_ && judge_->finished(); }
 
   /// Of the judge's work, each error of the tolerances being as much as the object itself.
-  double judged_part() const { return tolerances_ ? (judge_->part() + 5 * tolerances_->part()) / 6 : judge_->part(); }
+  double judged_part() const
+  {
+    return tolerances_ ? (judge_->part() + Tolerances::count * tolerances_->part()) / (1 + Tolerances::count) : judge_->part();
+  }
 
   /// As judged where that is done, else as believed.
   const std::vector<double>& light(std::size_t receiver) const { return judged() ? judge_->light(receiver) : method_->light(receiver); }
@@ -270,16 +284,6 @@ private:
     if (judge_) conflicts_ = search.of_pictures();
   }
 
-  void add_conflicts(job::Snapshot& snapshot) const
-  {
-    for (std::size_t j = 0; j < targets_.size(); ++j) {
-      snapshot.scalars.push_back({"conflicts", fmt::format("floor_{}", j + 1), conflicts_->misplaced[j]});
-      for (std::size_t k = j + 1; k < targets_.size(); ++k)
-        snapshot.scalars.push_back(
-            {"conflicts", fmt::format("{}_{}", j + 1, k + 1), conflicts_->between[j][k] + conflicts_->between[k][j]});
-    }
-  }
-
   /// The receivers' pictures and those between them in the order of their distance, as a screen that moves away would show them: as bright
   /// as is wanted at the receivers, and between them from the one to the other.
   void add_frames(job::Snapshot& snapshot) const
@@ -301,53 +305,15 @@ private:
     }
   }
 
-  static void add_cost(job::Snapshot& snapshot, const std::string& group, const Cost& c)
-  {
-    snapshot.scalars.insert(
-        snapshot.scalars.end(),
-        {{group, "cost", c.cost}, {group, "cost_all", c.cost_all}, {group, "rel_l2", c.rel_l2}, {group, "missed", c.missed}});
-  }
-
-  /// judged: empty as long as nothing is.
-  void add_receivers(job::Snapshot& snapshot, const std::vector<Cost>& believed, const std::vector<Cost>& judged) const
-  {
-    for (std::size_t j = 0; j < believed.size(); ++j) {
-      const std::string group = receiver_group(j);
-      snapshot.scalars.insert(snapshot.scalars.end(), {{group, "distance_mm", layout_.distances[j]},
-                                                       {group, "width_mm", layout_.receiver.x},
-                                                       {group, "height_mm", layout_.receiver.y},
-                                                       {group, "believed_cost", believed[j].cost},
-                                                       {group, "believed_rel_l2", believed[j].rel_l2}});
-      if (!judged.empty()) add_cost(snapshot, group, judged[j]);
-    }
-  }
-
   void add_scalars(job::Snapshot& snapshot) const
   {
     const std::vector<Cost> believed = method_->costs(), judged = this->judged() ? judge_->costs(targets_) : std::vector<Cost>();
-    add_cost(snapshot, "believed", mean(believed));
-    if (this->judged()) {
-      add_cost(snapshot, "judged", mean(judged));
-      const Cost noise = mean(judge_->noise(targets_));
-      snapshot.scalars.insert(snapshot.scalars.end(), {{"judged", "noise_cost", noise.cost}, {"judged", "noise_rel_l2", noise.rel_l2}});
-    }
-    add_receivers(snapshot, believed, judged);
-    if (conflicts_) add_conflicts(snapshot);
+    add_costs(snapshot, layout_, believed, judged);
+    if (this->judged()) add_noise(snapshot, mean(judge_->noise(targets_)));
+    if (conflicts_) add_conflicts(snapshot, *conflicts_);
     if (!this->judged()) return;
-    const Fates f = judge_->fates();
-    snapshot.scalars.insert(
-        snapshot.scalars.end(),
-        {{"light", "sent", f.sent}, {"light", "reflected", f.reflected}, {"light", "lost", f.lost}, {"light", "by_walls", f.by_walls}});
-    snapshot.scalars.insert(snapshot.scalars.end(), {{"object", "index", layout_.n},
-                                                     {"object", "slope_limit", usable_slope(layout_)},
-                                                     {"object", "relief_mm", solid_->relief()},
-                                                     {"object", "thinnest_mm", layout_.thickness - solid_->highest},
-                                                     {"object", "highest_wall_mm", solid_->highest_wall},
-                                                     {"object", "wall_area_mm2", solid_->wall_area},
-                                                     {"object", "steepest_wall_deg", solid_->wall_area > 0 ? solid_->steepest_wall_deg : 0},
-                                                     {"object", "roughness", roughness(layout_, method_->slopes())},
-                                                     {"object", "steepest_deg", solid_->steepest_deg},
-                                                     {"object", "triangles", static_cast<double>(solid_->mesh.triangles.size())}});
+    add_fates(snapshot, judge_->fates());
+    add_object(snapshot, layout_, *solid_, method_->slopes());
   }
 
   void add_files(job::Snapshot& snapshot) const
@@ -403,10 +369,12 @@ private:
   preset::Preset preset_;
   Layout layout_;
   std::vector<Target> targets_, best_;
+  std::uint64_t triangles_;
   std::unique_ptr<Method> method_;
   Began began_;
   std::vector<CostRow> history_;
   double method_seconds_ = 0, judge_seconds_ = 0;
+  std::optional<double> judge_needs_;  ///< seconds; where time ends the run, from its first step on
   std::shared_ptr<const Solid> solid_; ///< from when the slopes are found
   std::optional<Judge> judge_;
   std::optional<Tolerances> tolerances_; ///< where they are wanted, from when the judge begins

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace nephroid::inverse {
 
@@ -115,9 +116,9 @@ double noise_of(double whole, double a, double b) { return std::sqrt(std::max(0.
 
 SolidOnDevice::SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads, bool coloured)
 {
-  const scene::Bvh bvh = scene::build_bvh(solid.mesh);
-  nodes = compute::Buffer(context, "solid's tree", bvh.nodes);
-  blocks = compute::Buffer(context, "solid's triangles", bvh.blocks);
+  scene::Bvh bvh = scene::build_bvh(solid.mesh);
+  nodes = compute::Buffer(context, "solid's tree", std::exchange(bvh.nodes, {})); // a large one is in memory once
+  blocks = compute::Buffer(context, "solid's triangles", std::exchange(bvh.blocks, {}));
   normals = compute::Buffer(context, "solid's normals", normals_of(solid));
   root = bvh.root;
   compute::Defines defines = scene::tree_defines(bvh);
@@ -179,6 +180,12 @@ double Judge::part() const
   return finished_ ? 1 : (round_ + static_cast<double>(row_) / layout_.facets.y) / rounds;
 }
 
+std::uint64_t rays_of(const Layout& layout)
+{
+  const auto along = static_cast<std::uint64_t>(rays_along(layout));
+  return layout.facet_count() * along * along;
+}
+
 void Judge::advance()
 {
   const int rays_a_row = layout_.facets.x * front_.along * front_.along;
@@ -230,6 +237,7 @@ void Judge::read_sums()
   for (std::size_t i = 0; i < fates.size(); ++i) sums[i % FATES] += fates[i];
   const auto facets = [&](int fate) { return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA / round_; };
   sum_ = {facets(FATE_REFLECTED), facets(FATE_LOST), facets(FATE_SENT), facets(FATE_BY_WALLS)};
+  if (finished()) solid_ = {}; // no ray follows
 }
 
 std::vector<glm::dvec3> Judge::colours(std::size_t screen) const

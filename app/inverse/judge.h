@@ -42,6 +42,7 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
 
 /// What kernels need of a solid.
 struct SolidOnDevice {
+  SolidOnDevice() = default;
   /// spreads: light has a width, or many wavelengths. Throws failed where the device has not enough memory.
   SolidOnDevice(const compute::Context& context, const Solid& solid, bool spreads, bool coloured);
 
@@ -50,6 +51,9 @@ struct SolidOnDevice {
   int root = 0;
   std::optional<compute::Program> program; ///< inverse/judge.cl
 };
+
+/// What falls on the facets of such an object in a round.
+std::uint64_t rays_of(const Layout& layout);
 
 /// Rays fall evenly on all facets, a jittered lattice on each, in rounds. Rounds are drawn apart, so that what those of even and odd number
 /// differ by is noise. Of a spectrum, each ray of a facet has another part. The same seed gives the same bits on any number of threads.

@@ -2,10 +2,13 @@
 // A way to find the facets' slopes: what a run needs of it, whichever it is.
 #pragma once
 #include "base/bytes.h"
+#include "compute/compute.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"
 #include "job/job.h"
+
+#include <memory>
 
 namespace nephroid::inverse {
 
@@ -36,5 +39,9 @@ public:
   /// All that it needs to go on with the same bits.
   virtual void state(State& state) = 0;
 };
+
+/// As the preset says. The layout and the targets outlive it.
+std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets,
+                                    const compute::Context& context);
 
 } // namespace nephroid::inverse

@@ -6,6 +6,7 @@
 #include "inverse/describe_settings.h"
 #include "inverse/engine.h"
 #include "inverse/facets/smooth_solid.h"
+#include "inverse/lens/lens.h"
 #include "inverse/pictures/preview.h"
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/pipeline.h"
@@ -18,16 +19,18 @@
 namespace nephroid::inverse {
 namespace {
 
-/// Bytes a triangle, measured: with its vertices, its tree and the two files of it.
-constexpr std::uint64_t triangle_bytes = 215;
+/// Measured: a triangle of the solid, with its vertices and its tree while that is made, and of a copy with errors; what a facet takes on
+/// the host, with its pictures.
+constexpr std::uint64_t triangle_bytes = 145, copied_triangle_bytes = 21, facet_bytes = 400;
 
-/// Of the solid, about: some 14 a facet with its walls. Of a lens, whose surface is not known yet, as many as photographs took:
-/// mesh_parts() cuts facets into the more parts the more they bend light.
+/// Of the solid, about: some 14 a facet with its walls. Of a lens, whose surface is not known yet, as many as photographs took, or a fifth
+/// of that for a drawing: mesh_parts() cuts facets into the more parts the more they bend light.
 std::uint64_t triangles_of(const Settings& s, const Layout& l)
 {
   if (s.method != Settings::Method::lens) return 14 * l.facet_count();
-  const double miss = std::max(l.facet().x, l.facet().y) / std::min(l.cell().x, l.cell().y) / 2; // of light that is gathered in a point
-  return static_cast<std::uint64_t>((4 + 24 * std::pow(miss / s.mesh_error, 2)) * static_cast<double>(l.facet_count()));
+  const double miss = std::max(l.facet().x, l.facet().y) / std::min(l.cell().x, l.cell().y) / 2, // of light that is gathered in a point
+      bends = s.receivers.front().picture.type == Picture::Type::file ? 24 : 4.5;
+  return static_cast<std::uint64_t>((4 + bends * std::pow(miss / s.mesh_error, 2)) * static_cast<double>(l.facet_count()));
 }
 
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
@@ -77,7 +80,7 @@ InversePlan make_plan(const preset::Preset& preset)
   plan.targets = make_targets(preset, plan.layout);
   plan.best = best_possible(plan.layout, plan.targets);
   const Layout& l = plan.layout;
-  const std::uint64_t triangles = triangles_of(settings(preset), l);
+  const std::uint64_t triangles = plan.triangles = triangles_of(settings(preset), l);
   if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Place(preset.source) / "inverse", settings(preset).mesh_error, triangles);
   plan.engine = "inverse";
   plan.layers = 1;
@@ -88,9 +91,12 @@ InversePlan make_plan(const preset::Preset& preset)
       {"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming.size(), true},
       {"light on the receivers (host)", 8 * sizeof(double) * l.cell_count() * l.distances.size(), true},
       {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
+      {"a lens's fine grids (host)", settings(preset).method == Settings::Method::lens ? Lens::bytes(l) : 0, true},
       {"light on the frames (host)", 5 * sizeof(double) * l.cell_count() * l.frames.size(), true},
       {"the judge's light", (l.coloured ? 6 : 2) * sizeof(std::int64_t) * l.cell_count() * (l.distances.size() + l.frames.size())},
-      {"the solid and its files (host)", triangle_bytes * triangles, true}};
+      {"the facets and their pictures (host)", facet_bytes * l.facet_count(), true},
+      {"the solid and its tree (host)", triangle_bytes * triangles, true},
+      {"a solid with errors (host)", settings(preset).tolerances ? copied_triangle_bytes * triangles : 0, true}};
   if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
                                      "soft; choose more facets or fewer cells",

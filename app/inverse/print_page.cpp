@@ -13,8 +13,8 @@ namespace nephroid::inverse {
 namespace {
 
 constexpr double margin = 12, text_line = 6; // mm
-constexpr const char *solid = "stroke=\"black\" stroke-width=\"0.2\"",
-                     *dashed = "stroke=\"red\" stroke-width=\"0.2\" stroke-dasharray=\"2 2\"";
+constexpr const char *solid_line = "stroke=\"black\" stroke-width=\"0.2\"",
+                     *dashed_line = "stroke=\"red\" stroke-width=\"0.2\" stroke-dasharray=\"2 2\"";
 
 std::string escaped(const std::string& text)
 {
@@ -62,7 +62,7 @@ std::string begun(const glm::dvec2& sheet, const std::string& name, const std::s
                      "<rect width=\"{0:.6g}\" height=\"{1:.6g}\" fill=\"white\"/>\n",
                      sheet.x, sheet.y) +
          text(margin, margin, fmt::format("{}: print at 100 %, then this line is 50 mm long:", name)) +
-         fmt::format("<path d=\"M{:.6g} {:.6g}h50m0 -1.5v3m-50 0v-3\" fill=\"none\" {}/>\n", margin, margin + 3, solid) +
+         fmt::format("<path d=\"M{:.6g} {:.6g}h50m0 -1.5v3m-50 0v-3\" fill=\"none\" {}/>\n", margin, margin + 3, solid_line) +
          text(margin, margin + 2 * text_line, first) + text(margin, margin + 3 * text_line, second);
 }
 
@@ -75,7 +75,7 @@ std::string object_page(const Layout& layout, const std::string& name)
   const glm::dvec2 sheet = sheet_for(layout.size, lines_above), middle(sheet.x / 2, margin + lines_above * text_line + layout.size.y / 2);
   return begun(sheet, name, fmt::format("The object, {:.6g} x {:.6g} mm, seen along the light:", layout.size.x, layout.size.y),
                "its flat front, where light enters, is on your side; the arrow is up.") +
-         outline(middle, layout.size, solid) + marks(middle, layout.size, solid) + "</svg>\n";
+         outline(middle, layout.size, solid_line) + marks(middle, layout.size, solid_line) + "</svg>\n";
 }
 
 std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast, const std::string& name)
@@ -92,7 +92,8 @@ std::string receiver_page(const Layout& layout, std::size_t receiver, const job:
          fmt::format("<image x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" preserveAspectRatio=\"none\" "
                      "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n",
                      corner.x, corner.y, layout.receiver.x, layout.receiver.y, base64(image::png(cast.width, cast.height, cast.rgb))) +
-         outline(middle, layout.receiver, solid) + (offset == glm::dvec2(0) ? outline(middle, layout.size, dashed) : "") + "</svg>\n";
+         outline(middle, layout.receiver, solid_line) + (offset == glm::dvec2(0) ? outline(middle, layout.size, dashed_line) : "") +
+         "</svg>\n";
 }
 
 std::string plate_page(const glm::dvec2& plate, const std::vector<Placed>& bodies)
@@ -100,10 +101,10 @@ std::string plate_page(const glm::dvec2& plate, const std::vector<Placed>& bodie
   const glm::dvec2 sheet = sheet_for(plate, lines_above), middle(sheet.x / 2, margin + lines_above * text_line + plate.y / 2);
   std::string page = begun(sheet, "The plate", fmt::format("{:.6g} x {:.6g} mm, seen along the light:", plate.x, plate.y),
                            "the flat fronts are on your side; the arrows are up.") +
-                     outline(middle, plate, dashed);
+                     outline(middle, plate, dashed_line);
   for (const Placed& body : bodies) {
     const glm::dvec2 at = middle + glm::dvec2(body.middle.x, -body.middle.y);
-    page += outline(at, body.size, solid) + marks(at, body.size, solid) +
+    page += outline(at, body.size, solid_line) + marks(at, body.size, solid_line) +
             text(at.x - body.size.x / 2 + 1, at.y + body.size.y / 2 - 1.5, body.name);
   }
   return page + "</svg>\n";

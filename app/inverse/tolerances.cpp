@@ -19,7 +19,7 @@ struct Wrong {
   std::string_view what;
   double waves_mm = 0, turn_deg = 0, farther = 0;
 };
-constexpr std::array<Wrong, 5> errors{
+constexpr std::array<Wrong, Tolerances::count> errors{
     Wrong{.what = "heights off by 1 um", .waves_mm = 0.001}, Wrong{.what = "heights off by 5 um", .waves_mm = 0.005},
     Wrong{.what = "heights off by 20 um", .waves_mm = 0.02}, Wrong{.what = "turned by 1 degree", .turn_deg = 1},
     Wrong{.what = "receivers 1 % farther", .farther = 0.01}};

@@ -12,6 +12,8 @@ namespace nephroid::inverse {
 /// the figure is their root mean square. Their length decides over the slopes that they add: see wave_mm.
 class Tolerances {
 public:
+  static constexpr int count = 5; ///< of errors
+
   /// All of them outlive it.
   Tolerances(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
              std::uint64_t seed);

@@ -319,6 +319,7 @@ Bvh build_bvh(const Mesh& mesh)
   if (!root)
     throw failed("mesh",
                  fmt::format("Embree built no tree over {} primitives (error {})", boxes.size(), int{rtcGetDeviceError(device.get())}));
+  boxes = {}; // of a large mesh as much as the tree
   bvh.root = Layout(mesh, bvh).add(*root, 0, 1);
   if (bvh.nodes.empty()) bvh.nodes.resize(floats_per_node); // the root is a leaf
   return bvh;

@@ -29,6 +29,7 @@ typedef struct {
   float n;
   float steepest; // of a facet's gradient
   float usable;   // slope of light that falls straight on
+  float one_over_straight; // one over the part that a facet lets through which bends no light
   float sun_radius, scatter;
   float spreads; // a lamp: one over its distance, as light sees it in the object; 0: parallel light
   int free_heights;
@@ -99,7 +100,7 @@ typedef struct {
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceFront) == 112 && sizeof(DeviceWayOut) == 48);
-static_assert(sizeof(DeviceLayout) == 468 && sizeof(DeviceReceiver) == 16 && sizeof(DeviceIncoming) == 40);
+static_assert(sizeof(DeviceLayout) == 472 && sizeof(DeviceReceiver) == 16 && sizeof(DeviceIncoming) == 40);
 } // namespace nephroid::shared
 #endif
 

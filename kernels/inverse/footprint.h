@@ -151,7 +151,7 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
                  (float4)(1.0f + slope.x * g.x, slope.y * g.x, slope.x * g.y, 1.0f + slope.y * g.y),
                  (float4)(0.0f),
                  {(float2)(0.0f), (float2)(1.0f)},
-                 transmitted(slope, n, facet->sines) / transmitted((float2)(0.0f), n, (float2)(0.0f))};
+                 transmitted(slope, n, facet->sines) * layout->one_over_straight};
 #if NEPHROID_INCOMING
   const float2 inside = slope_inside(facet->sines, n);
   if (!layout->free_heights) beams.lit = lit_part(layout, facet, inside, slope, g);
@@ -264,6 +264,7 @@ static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* 
 // How much of a footprint's light is on each cell of a tile. One beam says it by itself; many are added up, a tile after the other.
 #if NEPHROID_SPREAD
 #define TILE 8
+#define TILE_ROWS TILE
 typedef float Tile[TILE * TILE];
 
 static SEPARATE int fill_tile(global const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile)
@@ -286,17 +287,22 @@ static SEPARATE int fill_tile(global const DeviceLayout* layout, const Footprint
 #define PART_ON(print, tile, x, y) ((tile)[TILE * ((y) - at.y) + (x) - at.x])
 #else
 #define TILE (1 << 20)
+#define TILE_ROWS 1
 typedef float Tile[1];
-static inline int fill_tile(global const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile) { return 1; }
-#define PART_ON(print, tile, x, y) (part_on((print).x, x) * part_on((print).y, y))
+static inline int fill_tile(global const DeviceLayout* layout, const Footprint* print, int2 corner, float* tile)
+{
+  tile[0] = part_on(print->y, corner.y);
+  return 1;
+}
+#define PART_ON(print, tile, x, y) (part_on((print).x, x) * (tile)[0])
 #endif
 
 // For every cell (x, y) that a footprint touches, of a tile that begins at `at`: PART_ON(print, tile, x, y) of its light.
 #define FOR_CELLS(layout, print, tile)                                                                                                     \
-  for (int4 box = cells_of(layout, &(print)), at = box; at.y < box.w; at.y += TILE)                                                       \
+  for (int4 box = cells_of(layout, &(print)), at = box; at.y < box.w; at.y += TILE_ROWS)                                                       \
     for (at.x = box.x; at.x < box.z; at.x += TILE)                                                                                         \
       for (int filled = fill_tile(layout, &(print), at.xy, tile); filled; filled = 0)                                                     \
-        for (int y = at.y; y < min(at.y + TILE, box.w); ++y)                                                                               \
+        for (int y = at.y; y < min(at.y + TILE_ROWS, box.w); ++y)                                                                               \
           for (int x = at.x; x < min(at.x + TILE, box.z); ++x)
 
 #endif

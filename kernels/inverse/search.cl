@@ -3,6 +3,7 @@
 // with a facet before them: so that each gains as much as it would alone.
 #include "kernels/inverse/light.h"
 #include "kernels/tracing/random.h"
+#include "kernels/tracing/registers.h"
 
 // 1: neighbours are to be alike.
 #ifndef NEPHROID_SMOOTHS
@@ -11,11 +12,13 @@
 
 // Refining takes so many steps of one length at most, and halves them until they are this part of a cell.
 #define STEPS 2
-#define FINEST 0.125f
+#define FINEST 0.25f
 
 // Candidates across and down, of which the best of every part are scored exactly.
 #define LATTICE 32
 #define PARTS 2
+// Then so many across and down about a candidate, at most: the cells that a step of the lattice passes over.
+#define MOST_FINE 8
 
 #define SEARCH_ARGUMENTS                                                                                                                   \
   __global const DeviceLayout* layout, global const DeviceReceiver *receivers, global const DeviceIncoming *incoming, global const float *heights,   \
@@ -154,38 +157,39 @@ __kernel void smear_x(__global const DeviceLayout* layout, __global const Device
 #define GATHER(from, i)                                                                                                                   \
   (float8)((from)[i.s0], (from)[i.s1], (from)[i.s2], (from)[i.s3], (from)[i.s4], (from)[i.s5], (from)[i.s6], (from)[i.s7])
 
-// The rows part, part + PARTS, ... of a lattice of points on the receiver `aim`, LATTICE across and down, moved at random by `offset`: the
-// lowest sum of what lacks where a facet's light to each point falls, for every eighth point of a row, and the slope to it. Infinite: none
-// is reachable.
-static SEPARATE void best_of_lattice(const Search* s, global const float* smeared, int aim, float2 offset, int part, float lowest_of[8], float2 slopes[8])
+// Eight slopes at a time, of which each is the best of those that were tried in its place; infinite: none was reachable.
+typedef struct {
+  float8 lowest, x, y;
+} Eight;
+
+// Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where a facet's light falls.
+static SEPARATE void try_lattice(const Search* s, global const float* smeared, float8 x_from, float8 y_from, float2 step, int2 count, Eight* best)
 {
   global const DeviceLayout* layout = s->layout;
-  const DeviceReceiver to = s->receivers[aim];
-  const float far = to.distance + s->facet.height;
-  const float2 step = (float2)(layout->receiver_x, layout->receiver_y) / (float)LATTICE,
-               corner = (float2)(to.x, to.y) + offset * step - 0.5f * (float2)(layout->receiver_x, layout->receiver_y);
-  float8 lowest = (float8)(INFINITY), best_x = (float8)(0.0f), best_y = (float8)(0.0f);
-  for (int k = part; k < LATTICE; k += PARTS)
-    for (int i = 0; i < LATTICE; i += 8) {
-      const float y = (corner.y + (float)k * step.y - s->facet.middle.y) / far;
-      const float8 x = (corner.x + ((float)i + LANES) * step.x - s->facet.middle.x) / far;
+  SET_ASIDE float8 lowest = best->lowest, best_x = best->x, best_y = best->y, x_begin = x_from, y_begin = y_from;
+  ROLLED
+  for (int k = 0; k < count.y; ++k) {
+    ROLLED
+    for (int i = 0; i < count.x; ++i) {
+      const float8 x = x_begin + (float)i * step.x, y = y_begin + (float)k * step.y;
       float8 sum = (float8)(0.0f);
+      ROLLED
       for (int j = 0; j < layout->receivers; ++j) {
         const DeviceReceiver receiver = s->receivers[j];
         const float way = receiver.distance + s->facet.height;
-        const float down = (0.5f * layout->receiver_y - (s->facet.middle.y - receiver.y + y * way)) / layout->cell_y;
-        const float8 across = (s->facet.middle.x - receiver.x + x * way + 0.5f * layout->receiver_x) / layout->cell_x;
-        const int row = (int)clamp(floor(down), -1.0f, (float)layout->cells_y);
-        const int8 column = convert_int8(clamp(floor(across), -1.0f, (float)layout->cells_x));
-        global const float* cells = smeared + rimmed_at(layout, j, 0, row);
-        sum += GATHER(cells, column);
+        const float2 on_axis = in_cells(layout, receiver, s->facet.middle), per_slope = way / (float2)(layout->cell_x, -layout->cell_y);
+        int8 at = (layout->cells_x + 2) * convert_int8(clamp(floor(on_axis.y + per_slope.y * y), -1.0f, (float)layout->cells_y));
+        at += convert_int8(clamp(floor(on_axis.x + per_slope.x * x), -1.0f, (float)layout->cells_x));
+        global const float* cells = smeared + rimmed_at(layout, j, 0, 0);
+        sum += GATHER(cells, at);
       }
 #if NEPHROID_SMOOTHS || NEPHROID_INCOMING
-      float each[8], xs[8];
+      float each[8], xs[8], ys[8];
       vstore8(sum, 0, each);
       vstore8(x, 0, xs);
+      vstore8(y, 0, ys);
       for (int lane = 0; lane < 8; ++lane) {
-        const float2 slope = (float2)(xs[lane], y);
+        const float2 slope = (float2)(xs[lane], ys[lane]);
 #if NEPHROID_SMOOTHS
         each[lane] -= dot(facet_normal(slope, layout->n, s->facet.sines), s->pull);
 #endif
@@ -198,17 +202,70 @@ static SEPARATE void best_of_lattice(const Search* s, global const float* smeare
 #endif
       lowest = select(lowest, sum, better);
       best_x = select(best_x, x, better);
-      best_y = select(best_y, (float8)(y), better);
+      best_y = select(best_y, y, better);
     }
-  float xs[8], ys[8];
-  vstore8(lowest, 0, lowest_of);
-  vstore8(best_x, 0, xs);
-  vstore8(best_y, 0, ys);
-  for (int lane = 0; lane < 8; ++lane) slopes[lane] = (float2)(xs[lane], ys[lane]);
+  }
+  best->lowest = lowest;
+  best->x = best_x;
+  best->y = best_y;
 }
 
-// Facet order[first + i] looks for found[i]; done[i]: it has none that is better.
-__kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global const uint* order, uint first, uint count, uint2 seed,
+// A lattice of slopes to points of one of the receivers, LATTICE across and down, and cells about each of them.
+typedef struct {
+  float2 corner, step, fine_step;
+  int2 fine; // cells of a step
+} Lattice;
+
+// Moved at random; another receiver every time, so that light is tried that misses those behind it.
+static inline Lattice lattice_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers, const Facet* facet, uint2 seed, uint sweep,
+                                 uint index)
+{
+  const float4 random = random4(seed, sweep, index, 0u, STREAM_FACETS);
+  const DeviceReceiver to = receivers[min((int)(random.z * (float)layout->receivers), layout->receivers - 1)];
+  const float2 size = (float2)(layout->receiver_x, layout->receiver_y);
+  const float far = to.distance + facet->height;
+  Lattice made;
+  made.step = size / (LATTICE * far);
+  made.corner = random.xy * made.step + ((float2)(to.x, to.y) - 0.5f * size - facet->middle) / far;
+  made.fine = clamp((int2)(layout->cells_x, layout->cells_y) / LATTICE, 1, MOST_FINE);
+  made.fine_step = made.step / convert_float2(made.fine);
+  return made;
+}
+
+// Facet order[first + i] gets eight slopes to try: of the rows part, part + PARTS, ... of its lattice the best of every eighth column, then of
+// the cells about each; of the parts' the better one. x is infinite where none was reachable.
+__kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global const uint* order, uint first, uint count, uint2 seed,
+                      uint sweep, __global float2* candidates)
+{
+  const uint i = (uint)get_global_id(0);
+  if (i >= count) return;
+  const uint index = order[first + i];
+  Search s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
+#if NEPHROID_SMOOTHS
+  s.pull = smoothing * pull_on(layout, incoming, heights, slopes, index);
+#endif
+  const Lattice lattice = lattice_of(layout, receivers, &s.facet, seed, sweep, index);
+  const float2 step = lattice.step, fine_step = lattice.fine_step;
+  Eight best = {(float8)(INFINITY), (float8)(0.0f), (float8)(0.0f)};
+  for (int part = 0; part < PARTS; ++part) {
+    Eight own = {(float8)(INFINITY), (float8)(0.0f), (float8)(0.0f)};
+    try_lattice(&s, smeared, lattice.corner.x + LANES * step.x, (float8)(lattice.corner.y + (float)part * step.y), (float2)(8, PARTS) * step,
+                (int2)(LATTICE / 8, LATTICE / PARTS), &own);
+    try_lattice(&s, smeared, own.x - 0.5f * (step.x - fine_step.x), own.y - 0.5f * (step.y - fine_step.y), fine_step, lattice.fine, &own);
+    const int8 better = own.lowest < best.lowest;
+    best.lowest = select(best.lowest, own.lowest, better);
+    best.x = select(best.x, own.x, better);
+    best.y = select(best.y, own.y, better);
+  }
+  float there[8], xs[8], ys[8];
+  vstore8(best.lowest, 0, there);
+  vstore8(best.x, 0, xs);
+  vstore8(best.y, 0, ys);
+  for (int lane = 0; lane < 8; ++lane) candidates[8 * i + lane] = (float2)(there[lane] == INFINITY ? INFINITY : xs[lane], ys[lane]);
+}
+
+// Facet order[first + i] looks for found[i], first among its candidates; done[i]: it has none that is better.
+__kernel void look(SEARCH_ARGUMENTS, __global const float2* candidates, __global const uint* order, uint first, uint count, uint2 seed,
                    uint sweep, __global float2* found, __global int* done)
 {
   const uint i = (uint)get_global_id(0);
@@ -219,23 +276,17 @@ __kernel void look(SEARCH_ARGUMENTS, __global const float* smeared, __global con
   const float begin = score(&s, now);
   float2 from = now;
   float lowest = begin;
-  const float4 random = random4(seed, sweep, index, 0u, STREAM_FACETS);
-  const int aim = min((int)(random.z * (float)layout->receivers), layout->receivers - 1);
-  for (int part = 0; part < PARTS; ++part) {
-    float there[8];
-    float2 candidates[8];
-    best_of_lattice(&s, smeared, aim, random.xy, part, there, candidates);
-    for (int lane = 0; lane < 8; ++lane) {
-      if (there[lane] == INFINITY) continue;
-      there[lane] = score(&s, candidates[lane]);
-      if (there[lane] < lowest) {
-        lowest = there[lane];
-        from = candidates[lane];
-      }
+  for (int lane = 0; lane < 8; ++lane) {
+    const float2 candidate = candidates[8 * i + lane];
+    if (candidate.x == INFINITY) continue;
+    const float sum = score(&s, candidate);
+    if (sum < lowest) {
+      lowest = sum;
+      from = candidate;
     }
   }
-  const float last = receivers[layout->receivers - 1].distance;
-  float2 step = (float2)(layout->receiver_x, layout->receiver_y) / (LATTICE * last);
+  const float last = receivers[layout->receivers - 1].distance + s.facet.height;
+  float2 step = 4.0f * lattice_of(layout, receivers, &s.facet, seed, sweep, index).fine_step;
   while (step.x > FINEST * layout->cell_x / last || step.y > FINEST * layout->cell_y / last) {
     step *= 0.5f;
     for (int k = 0; k < STEPS; ++k) {

@@ -135,7 +135,7 @@ void Assignment::advance()
   ++sweeps_;
   settle();
   const double before = std::exchange(residual_, residual());
-  constexpr double worth_a_sweep = 0.005; // a sweep that lowers the sum of squares by a smaller part of it is the last
+  constexpr double worth_a_sweep = 0.03; // a sweep that lowers the sum of squares by a smaller part of it is the last
   if (residual_ > (1 - worth_a_sweep) * before) {
     converged_ = layout_.smoothing > 0;
     if (!converged_) refinement_.emplace(layout_, wanted_, weights_, heights_);

@@ -11,9 +11,9 @@ namespace nephroid::inverse {
 /// Lowers weighted_squares(), and what smoothing adds to it (cost.h), on the device. A sweep goes through all facets in a random order, in
 /// batches: every facet of a batch looks for its slope at once, among the light as it is before the batch. Then those take what they found
 /// that share no cell with a facet before them, if it is better than what they had, and the others try again. So no batch makes the sum
-/// larger, and the number of threads changes no bit. When a sweep gains less than a two-hundredth of the sum, the last one moves all facets
-/// together: see Refinement, which knows no smoothing and is left out where there is some. Free heights, and what facets see of their
-/// neighbours, follow the slopes after each sweep.
+/// larger, and the number of threads changes no bit. When a sweep gains less than three hundredths of the sum, the last one moves all
+/// facets together: see Refinement, which knows no smoothing and is left out where there is some. Free heights, and what facets see of
+/// their neighbours, follow the slopes after each sweep.
 class Assignment final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin with random slopes. Throws failed where the device has not enough memory.

@@ -95,6 +95,7 @@ shared::DeviceLayout device_layout(const Layout& l)
                             .n = number(l.n),
                             .steepest = number(l.steepest),
                             .usable = number(usable_slope(l)),
+                            .one_over_straight = number(1 / transmitted({0, 0}, l.n)),
                             .sun_radius = number(l.sun_radius),
                             .scatter = number(l.scatter),
                             .spreads = l.lamp ? number(1 / (l.lamp->z - l.thickness + l.thickness / l.n)) : 0,
@@ -162,9 +163,10 @@ DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout
       wanted_(context, "wanted light", wanted_of(layout, targets)), lack_(context, "lack of light", cells_),
       along_y_(context, "lack of light along y", cells_),
       smeared_(compute::zeroed<float>(context, "lack of light, smeared", rimmed_cells(layout))), slopes_(context, "slopes", facets_),
-      found_(context, "slopes found", most_in_a_batch), gradient_(context, "gradient", facets_),
-      light_(context, "light on the receivers", cells_), order_(context, "order of the facets", facets_),
-      claims_(context, "claims", cells_ + facets_), done_(context, "facets that have looked", most_in_a_batch)
+      candidates_(context, "slopes to try", 8 * most_in_a_batch), found_(context, "slopes found", most_in_a_batch),
+      gradient_(context, "gradient", facets_), light_(context, "light on the receivers", cells_),
+      order_(context, "order of the facets", facets_), claims_(context, "claims", cells_ + facets_),
+      done_(context, "facets that have looked", most_in_a_batch)
 {
   const compute::Defines defines = facet_defines(layout);
   const compute::Program light(context, "inverse/light.cl", defines), search(context, "inverse/search.cl", defines);
@@ -173,6 +175,7 @@ DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout
   find_gradient_ = light.kernel("find_gradient");
   smear_x_ = search.kernel("smear_x");
   smear_y_ = search.kernel("smear_y");
+  propose_ = search.kernel("propose");
   look_ = search.kernel("look");
   claim_ = search.kernel("claim");
   take_ = search.kernel("take");
@@ -234,17 +237,19 @@ void DeviceFacets::look(std::size_t first, std::size_t count, double smoothing)
   const auto weight = static_cast<float>(smoothing);
   const compute::Argument shared[] = {{"layout", layout_},    {"receivers", receivers_}, {"incoming", incoming_}, {"heights", heights_},
                                       {"slopes", slopes_},    {"lack", lack_},           {"smoothing", weight},   {"order", order_},
-                                      {"first", first_facet}, {"count", facets},         {"found", found_},       {"done", done_}};
+                                      {"first", first_facet}, {"count", facets}};
   smear_y_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"lack", lack_}, {"along_y", along_y_}});
   smear_x_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"along_y", along_y_}, {"smeared", smeared_}});
-  look_.run(count, group, shared, {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}});
+  propose_.run(count, group, shared, {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}, {"candidates", candidates_}});
+  look_.run(count, group, shared, {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
   for (int i = 0; i < turns; ++i, ++turn_) {
     if (turn_ >= all_turns) {
       claims_.write(std::vector<std::uint32_t>(claims_.size(), ~0u));
       turn_ = 0;
     }
-    claim_.run(count, group, shared, {{"claims", claims_}, {"turn", turn_}});
-    take_.run(count, group, shared, {{"claims", claims_}, {"turn", turn_}, {"light", light_}, {"wanted", wanted_}});
+    claim_.run(count, group, shared, {{"found", found_}, {"done", done_}, {"claims", claims_}, {"turn", turn_}});
+    take_.run(count, group, shared,
+              {{"found", found_}, {"done", done_}, {"claims", claims_}, {"turn", turn_}, {"light", light_}, {"wanted", wanted_}});
   }
   context_.finish();
 }

@@ -64,11 +64,11 @@ private:
   compute::Buffer<shared::DeviceReceiver> receivers_;
   compute::Buffer<shared::DeviceIncoming> incoming_;
   compute::Buffer<float> heights_, wanted_, lack_, along_y_, smeared_;
-  compute::Buffer<std::array<float, 2>> slopes_, found_, gradient_;
+  compute::Buffer<std::array<float, 2>> slopes_, candidates_, found_, gradient_;
   compute::Buffer<std::int64_t> light_;
   compute::Buffer<std::uint32_t> order_, claims_;
   compute::Buffer<int> done_;
-  compute::Kernel add_light_, find_lack_, find_gradient_, smear_x_, smear_y_, look_, claim_, take_;
+  compute::Kernel add_light_, find_lack_, find_gradient_, smear_x_, smear_y_, propose_, look_, claim_, take_;
   std::uint32_t sweep_ = 0, turn_ = 0;
   shared::uint2 seed_{};
 

@@ -34,8 +34,10 @@ struct Vertex {
 ///
 /// Facets around are counted counter-clockwise seen from above (+z): 0 is at +x +y. Wall k stands between facets k and k + 1.
 struct Post {
-  std::array<Vertex, 4> ends;                 ///< of each facet around; equal heights are one vertex
-  std::array<std::vector<Vertex>, 4> between; ///< of each wall, ascending: what its end has strictly between the ends of its facets
+  std::array<Vertex, 4> ends; ///< of each facet around; equal heights are one vertex
+  /// Where all four walls share a stretch: vertices that pair them, ascending, and a low facet; the other is low + 2.
+  std::array<Vertex, 3> pairs{};
+  std::optional<std::size_t> low;
 };
 
 void join_close_heights(std::array<double, 4>& heights, double joins)
@@ -52,24 +54,17 @@ Vertex add_vertex(const glm::dvec2& at, double z, scene::Mesh& mesh)
   return {z, static_cast<std::uint32_t>(mesh.positions.size() - 1)};
 }
 
-/// Where all four walls share a stretch: vertices that pair them.
 void pair_walls(Post& post, const glm::dvec2& at, scene::Mesh& mesh)
 {
-  for (const std::size_t low : {std::size_t{0}, std::size_t{1}}) { // a low facet; the other is low + 2
+  for (const std::size_t low : {std::size_t{0}, std::size_t{1}}) {
     const double bottom = std::max(post.ends[low].z, post.ends[low + 2].z),
                  top = std::min(post.ends[low + 1].z, post.ends[(low + 3) % 4].z);
     if (bottom >= top) continue;
-    const Vertex lower = add_vertex(at, 0.75 * bottom + 0.25 * top, mesh), middle = add_vertex(at, 0.5 * bottom + 0.5 * top, mesh),
-                 upper = add_vertex(at, 0.25 * bottom + 0.75 * top, mesh);
-    const std::size_t one_high = low + 1, other_low = low + 2;
-    // The walls of facet f are those before and after it.
-    const auto is_of = [](std::size_t wall, std::size_t f) { return wall == f || (wall + 1) % 4 == f; };
-    for (std::size_t wall = 0; wall < 4; ++wall) {
-      std::vector<Vertex>& between = post.between[wall];
-      if (is_of(wall, one_high)) between.push_back(lower);
-      between.push_back(middle);
-      if (is_of(wall, other_low)) between.push_back(upper);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double part = 0.25 * static_cast<double>(i + 1);
+      post.pairs[i] = add_vertex(at, (1 - part) * bottom + part * top, mesh);
     }
+    post.low = low;
   }
 }
 
@@ -84,15 +79,6 @@ Post make_post(const glm::dvec2& at, std::array<double, 4> heights, double joins
     post.ends[f] = same < f ? post.ends[same] : add_vertex(at, heights[f], mesh);
   }
   pair_walls(post, at, mesh);
-  for (std::size_t wall = 0; wall < 4; ++wall) {
-    const double a = heights[wall], b = heights[(wall + 1) % 4];
-    std::vector<Vertex>& between = post.between[wall];
-    for (const Vertex& end : post.ends)
-      if (end.z > std::min(a, b) && end.z < std::max(a, b)) between.push_back(end);
-    std::sort(between.begin(), between.end(), [](const Vertex& p, const Vertex& q) { return p.z < q.z; });
-    const auto last = std::unique(between.begin(), between.end(), [](const Vertex& p, const Vertex& q) { return p.id == q.id; });
-    between.erase(last, between.end());
-  }
   return post;
 }
 
@@ -102,9 +88,18 @@ std::vector<Vertex> end_of_wall(const Post& post, std::size_t wall)
   Vertex low = post.ends[wall], high = post.ends[(wall + 1) % 4];
   if (low.id == high.id) return {low};
   if (low.z > high.z) std::swap(low, high);
-  std::vector<Vertex> all{low};
-  all.insert(all.end(), post.between[wall].begin(), post.between[wall].end());
-  all.push_back(high);
+  std::vector<Vertex> all{low, high};
+  for (const Vertex& end : post.ends)
+    if (end.z > low.z && end.z < high.z) all.push_back(end);
+  if (post.low) {
+    // The walls of facet f are those before and after it.
+    const auto is_of = [&](std::size_t f) { return wall == f || (wall + 1) % 4 == f; };
+    if (is_of(*post.low + 1)) all.push_back(post.pairs[0]);
+    all.push_back(post.pairs[1]);
+    if (is_of(*post.low + 2)) all.push_back(post.pairs[2]);
+  }
+  std::sort(all.begin(), all.end(), [](const Vertex& p, const Vertex& q) { return p.z < q.z; });
+  all.erase(std::unique(all.begin(), all.end(), [](const Vertex& p, const Vertex& q) { return p.id == q.id; }), all.end());
   return all;
 }
 
@@ -157,6 +152,7 @@ private:
     for (const Facet& f : solid_.facets) farthest = std::max(farthest, std::abs(f.height) + glm::dot(glm::abs(f.gradient), half));
     const double closest = std::max(corners_join * std::min(layout_.facet().x, layout_.facet().y), tells_apart * farthest);
     const std::array<glm::dvec2, 4> corner{glm::dvec2{-half.x, -half.y}, {half.x, -half.y}, {half.x, half.y}, {-half.x, half.y}};
+    posts_.reserve(index_at(0, ny_ + 1, nx_ + 1));
     solid_.lowest = std::numeric_limits<double>::infinity();
     solid_.highest = -solid_.lowest;
     for (int b = 0; b <= ny_; ++b)

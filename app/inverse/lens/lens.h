@@ -79,6 +79,8 @@ public:
 
   void state(State& state) override;
 
+  static std::uint64_t bytes(const Layout& layout); ///< of fine grids, about
+
 private:
   /// Corrections in a row that gain too little, after which no more follow.
   static constexpr std::int64_t most_stale = 2;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures that a run reports: docs/inverse.md says what each of them is.
+#pragma once
+#include "inverse/assign/conflicts.h"
+#include "inverse/assign/cost.h"
+#include "inverse/facets/solid.h"
+#include "inverse/judge.h"
+#include "job/job.h"
+
+namespace nephroid::inverse {
+
+/// Of all pictures and of each receiver. judged: empty as long as nothing is.
+void add_costs(job::Snapshot& snapshot, const Layout& layout, const std::vector<Cost>& believed, const std::vector<Cost>& judged);
+
+/// How much of the judge's figures is noise.
+void add_noise(job::Snapshot& snapshot, const Cost& noise);
+
+/// Which pictures fight.
+void add_conflicts(job::Snapshot& snapshot, const Conflicts& conflicts);
+
+/// Where the light goes.
+void add_fates(job::Snapshot& snapshot, const Fates& fates);
+
+void add_object(job::Snapshot& snapshot, const Layout& layout, const Solid& solid, const std::vector<glm::dvec2>& slopes);
+
+} // namespace nephroid::inverse

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// How long the judge will take, which a run that ends by time leaves to it.
+#pragma once
+#include "inverse/judge.h"
+
+namespace nephroid::inverse {
+
+/// Seconds that this machine takes for the solid of so many triangles and for the judge's rays through it: a piece of such an object, 32
+/// facets a side, is made, and judged for some milliseconds. Triangles and rays then take as long as they do there, and a quarter more,
+/// because a larger tree is slower.
+double judge_seconds(const compute::Context& context, const Layout& layout, std::uint64_t triangles);
+
+} // namespace nephroid::inverse
