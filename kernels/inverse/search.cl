@@ -246,22 +246,25 @@ __kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global 
 #endif
   const Lattice lattice = lattice_of(layout, receivers, &s.facet, seed, sweep, index);
   const float2 step = lattice.step, fine_step = lattice.fine_step;
-  Eight best = {(float8)(INFINITY), (float8)(0.0f), (float8)(0.0f)};
+  float lowest[8];
+  for (int lane = 0; lane < 8; ++lane) lowest[lane] = INFINITY;
+  candidates += 8 * i;
+  ROLLED
   for (int part = 0; part < PARTS; ++part) {
     Eight own = {(float8)(INFINITY), (float8)(0.0f), (float8)(0.0f)};
     try_lattice(&s, smeared, lattice.corner.x + LANES * step.x, (float8)(lattice.corner.y + (float)part * step.y), (float2)(8, PARTS) * step,
                 (int2)(LATTICE / 8, LATTICE / PARTS), &own);
     try_lattice(&s, smeared, own.x - 0.5f * (step.x - fine_step.x), own.y - 0.5f * (step.y - fine_step.y), fine_step, lattice.fine, &own);
-    const int8 better = own.lowest < best.lowest;
-    best.lowest = select(best.lowest, own.lowest, better);
-    best.x = select(best.x, own.x, better);
-    best.y = select(best.y, own.y, better);
+    float there[8], xs[8], ys[8];
+    vstore8(own.lowest, 0, there);
+    vstore8(own.x, 0, xs);
+    vstore8(own.y, 0, ys);
+    for (int lane = 0; lane < 8; ++lane) {
+      if (part > 0 && !(there[lane] < lowest[lane])) continue;
+      lowest[lane] = there[lane];
+      candidates[lane] = (float2)(there[lane] == INFINITY ? INFINITY : xs[lane], ys[lane]);
+    }
   }
-  float there[8], xs[8], ys[8];
-  vstore8(best.lowest, 0, there);
-  vstore8(best.x, 0, xs);
-  vstore8(best.y, 0, ys);
-  for (int lane = 0; lane < 8; ++lane) candidates[8 * i + lane] = (float2)(there[lane] == INFINITY ? INFINITY : xs[lane], ys[lane]);
 }
 
 // Facet order[first + i] looks for found[i], first among its candidates; done[i]: it has none that is better.
