@@ -64,7 +64,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens)
           .cells_y = l.cells.y,
           .screens = static_cast<int>(screens),
           .index_count = static_cast<int>(l.indices.size()),
-          .padding = 0};
+          .is_round = l.round ? 1 : 0};
 }
 
 bool spreads(const Layout& l) { return l.sun_radius > 0 || l.scatter > 0 || !l.indices.empty(); }

@@ -26,8 +26,10 @@ constexpr std::uint64_t triangle_bytes = 215;
 std::uint64_t triangles_of(const Settings& s, const Layout& l)
 {
   if (s.method != Settings::Method::lens) return 14 * l.facet_count();
-  const double miss = std::max(l.facet().x, l.facet().y) / std::min(l.cell().x, l.cell().y) / 2; // of light that is gathered in a point
-  return static_cast<std::uint64_t>((4 + 24 * std::pow(miss / s.mesh_error, 2)) * static_cast<double>(l.facet_count()));
+  const Layout mesh = mesh_layout(l);
+  const double miss =
+      std::max(mesh.facet().x, mesh.facet().y) / std::min(l.cell().x, l.cell().y) / 2; // of light that is gathered in a point
+  return static_cast<std::uint64_t>((4 + 24 * std::pow(miss / s.mesh_error, 2)) * static_cast<double>(mesh.facet_count()));
 }
 
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
@@ -62,7 +64,9 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
                           : "inverse.heights is flat: nothing is solved"},
           {"transport", lens, lens ? what : chosen},
           {"incoming", !straight,
-           straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
+           straight  ? "parallel light straight on: one direction for all facets"
+           : l.round ? "a direction and a power of its own for each facet: none beside the round outline"
+                     : "a direction of its own for each facet"},
           {"judge", true, "rays through the finished solid, walls and all"}};
 }
 
@@ -73,7 +77,7 @@ InversePlan make_plan(const preset::Preset& preset)
   InversePlan plan;
   plan.layout = make_layout(preset);
   plan.targets = make_targets(preset, plan.layout);
-  plan.best = best_possible(plan.layout, plan.targets);
+  plan.best = best_possible(blurring_layout(settings(preset), plan.layout), plan.targets);
   const Layout& l = plan.layout;
   const std::uint64_t triangles = triangles_of(settings(preset), l);
   if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Place(preset.source) / "inverse", settings(preset).mesh_error, triangles);
@@ -87,7 +91,9 @@ InversePlan make_plan(const preset::Preset& preset)
                   {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
                   {"light on the frames (host)", 3 * sizeof(double) * l.cell_count() * l.frames.size(), true},
                   {"the solid and its files (host)", triangle_bytes * triangles, true}};
-  if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
+  const bool drawn_by_lens =
+      settings(preset).method == Settings::Method::lens && settings(preset).receivers[0].picture.type != Picture::Type::file;
+  if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)) // a lens gathers a drawing's light
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
                                      "soft; choose more facets or fewer cells",
                                      l.facet().x, l.facet().y, l.cell().x, l.cell().y));

@@ -28,6 +28,13 @@ std::string outline(const glm::dvec2& middle, const glm::dvec2& size, const char
                      middle.y - size.y / 2, size.x, size.y, style);
 }
 
+std::string object_outline(const Layout& layout, const glm::dvec2& middle, const char* style)
+{
+  if (!layout.round) return outline(middle, layout.size, style);
+  return fmt::format("<ellipse cx=\"{:.6g}\" cy=\"{:.6g}\" rx=\"{:.6g}\" ry=\"{:.6g}\" fill=\"none\" {}/>\n", middle.x, middle.y,
+                     layout.size.x / 2, layout.size.y / 2, style);
+}
+
 std::string text(double x, double y, const std::string& words)
 {
   return fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\">{}</text>\n", x, y, escaped(words));
@@ -62,7 +69,7 @@ std::string print_page(const Layout& layout, const std::vector<std::shared_ptr<c
   page += text(margin, y + text_line, "its flat front, where light enters, is on your side; the arrow is up.");
   y += 2 * text_line + layout.size.y / 2;
   const glm::dvec2 object(width / 2, y);
-  page += outline(object, layout.size, solid) + marks(object, layout.size, solid);
+  page += object_outline(layout, object, solid) + marks(object, layout.size, solid);
   y += layout.size.y / 2 + text_line;
   for (std::size_t j = 0; j < cast.size(); ++j, y += block) {
     page += text(margin, y + text_line,
@@ -73,7 +80,7 @@ std::string print_page(const Layout& layout, const std::vector<std::shared_ptr<c
                         "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n",
                         corner.x, corner.y, layout.receiver.x, layout.receiver.y,
                         base64(image::png(cast[j]->width, cast[j]->height, cast[j]->rgb)));
-    page += outline(middle, layout.receiver, solid) + outline(middle, layout.size, dashed);
+    page += outline(middle, layout.receiver, solid) + object_outline(layout, middle, dashed);
   }
   return page + "</svg>\n";
 }

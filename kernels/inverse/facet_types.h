@@ -83,7 +83,7 @@ typedef struct {
   int columns, along; // facets of a row; rays along one side of a facet
   int cells_x, cells_y, screens;
   int index_count;
-  int padding;
+  int is_round; // 1: light falls on the ellipse within the front
 } DeviceFront;
 
 // A ray's way out of the object.
