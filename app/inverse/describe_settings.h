@@ -39,6 +39,11 @@ inline constexpr Choice<inverse::Settings::Heights> choices<inverse::Settings::H
      "Where the walls between facets are lowest; the relief becomes deeper, as far as the constraints let it."}};
 
 template <>
+inline constexpr Choice<inverse::Settings::Outline> choices<inverse::Settings::Outline>[] = {
+    {inverse::Settings::Outline::rectangle, "rectangle", "As wide and high as 'size_mm'."},
+    {inverse::Settings::Outline::round, "round", "The disc, or ellipse, within it; with the method 'lens'."}};
+
+template <>
 inline constexpr Choice<inverse::Thesis::Sampling> choices<inverse::Thesis::Sampling>[] = {
     {inverse::Thesis::Sampling::exact, "exact", "From the cumulative sum."},
     {inverse::Thesis::Sampling::rejection, "rejection",
@@ -161,6 +166,7 @@ inline void describe(preset::Fields& v, Settings& s)
   using preset::within;
   v.field("method", "How the facets' slopes are found.", s.method);
   v.field("size_mm", "Width and height of the object.", s.size_mm, {.unit = "mm", .bounds = within(0.1, 1e5)});
+  v.field("outline", "What the object looks like from the front; light beside it is not there.", s.outline);
   v.field("thickness_mm", "From the middle of the relief to the flat front.", s.thickness_mm, {.unit = "mm", .bounds = within(0.01, 1e5)});
   v.field("heights", "Where the middles of the facets are.", s.heights);
   v.field("min_thickness_mm", "No part of the object may be thinner.", s.min_thickness_mm, {.unit = "mm", .bounds = within(0.001, 1e5)});

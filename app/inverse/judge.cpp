@@ -75,7 +75,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens)
           .cells_y = l.cells.y,
           .screens = static_cast<int>(screens),
           .part_step = l.spectrum.empty() ? 0 : part_step(rays_along(l) * rays_along(l)),
-          .padding = 0};
+          .is_round = l.round ? 1 : 0};
 }
 
 /// Of receivers, then of the frames between them.

@@ -136,6 +136,7 @@ Layout make_layout(const preset::Preset& preset)
   const Place own = Place(preset.source) / "inverse";
   Layout l;
   l.size = {s.size_mm[0], s.size_mm[1]};
+  l.round = s.outline == Settings::Outline::round;
   l.thickness = s.thickness_mm;
   l.facets = {s.facets[0], s.facets[1]};
   set_spectrum(l, preset);

@@ -30,6 +30,7 @@ inline std::size_t index_at(int column, int row, int columns)
 
 struct Layout {
   glm::dvec2 size{100, 100}; ///< of the object
+  bool round = false;        ///< it is the ellipse within this size
   double thickness = 10;
   glm::ivec2 facets{128, 128};
   double n = 1.5;                  ///< index of the object over that of what is around it: the mean over what counts of the light
@@ -111,13 +112,19 @@ double usable_slope(const Layout& layout);
 /// Throws bad_input where no facet can bend light far enough to reach a lit cell.
 void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset);
 
-/// Fills sines, lamp and incoming. Parallel light straight on needs no table of facets. Throws bad_input, naming the tilt or distance that
-/// would do, for light from behind the front, and where facets would stand in each other's light; also where no light that enters through
-/// the front reaches a facet.
+/// Fills sines, lamp and incoming. Parallel light straight on a rectangle needs no table of facets. Throws bad_input, naming the tilt or
+/// distance that would do, for light from behind the front, and where facets would stand in each other's light; also where no light that
+/// enters through the front reaches a facet.
 void set_light(Layout& layout, const Light& light, const Place& where);
+
+/// Fills incoming, the rest of the light being known. False: no light reaches any facet.
+bool light_facets(Layout& layout);
 
 /// At a facet's middle. power: over light that falls straight on or, of a lamp, in units of its intensity over a square millimetre.
 Incoming incoming_at(const Layout& layout, const glm::dvec2& middle);
+
+/// How much of a rectangle lies within the object's outline.
+double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size);
 
 /// Light that falls on a place of the front; weight: over its mean.
 struct LightRay {

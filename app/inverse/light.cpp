@@ -32,11 +32,8 @@ struct LampWay {
 /// The part of a facet whose light comes through the front, not through a side.
 double through_front(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& sines)
 {
-  const glm::dvec2 from = middle + layout.thickness / light_inside(sines, layout.n).z * sines, half = layout.size / 2.0,
-                   facet = layout.facet() / 2.0;
-  const glm::dvec2 low = glm::max(from - facet, -half), high = glm::min(from + facet, half);
-  const glm::dvec2 part = glm::max(high - low, glm::dvec2(0)) / layout.facet();
-  return part.x * part.y;
+  const glm::dvec2 from = middle + layout.thickness / light_inside(sines, layout.n).z * sines;
+  return part_within(layout, from, layout.facet()) * (layout.round ? part_within(layout, middle, layout.facet()) : 1);
 }
 
 Incoming from_lamp(const Layout& layout, const glm::dvec2& middle)
@@ -60,7 +57,17 @@ double solid_angle_of_front(const Layout& layout)
 {
   const glm::dvec2 low = -layout.size / 2.0 - glm::dvec2(*layout.lamp), high = low + layout.size;
   const double z = layout.lamp->z - layout.thickness;
-  return solid_angle(high.x, high.y, z) - solid_angle(low.x, high.y, z) - solid_angle(high.x, low.y, z) + solid_angle(low.x, low.y, z);
+  if (!layout.round)
+    return solid_angle(high.x, high.y, z) - solid_angle(low.x, high.y, z) - solid_angle(high.x, low.y, z) + solid_angle(low.x, low.y, z);
+  constexpr int across = 256;
+  const glm::dvec2 part = layout.size / (1.0 * across);
+  double sum = 0;
+  for (std::size_t i = 0; i < std::size_t{across} * across; ++i) {
+    const glm::dvec2 middle = Layout::middle_of(i, {across, across}, layout.size);
+    sum += part_within(layout, middle, part) * part.x * part.y * z /
+           std::pow(glm::length(glm::dvec3(middle - glm::dvec2(*layout.lamp), z)), 3);
+  }
+  return sum;
 }
 
 /// The largest t . g of facets that send their light to the place of the last receiver that is nearest to where it goes straight on.
@@ -148,20 +155,47 @@ void set_light(Layout& layout, const Light& light, const Place& where)
     layout = lit_by_lamp(layout, light, where / "distance_mm");
   else
     layout = tilted(layout, light, where / "tilt_deg");
-  if (!layout.lamp && layout.sines == glm::dvec2(0)) return;
+  if (!light_facets(layout))
+    throw bad_input(
+        where,
+        fmt::format("comes so much from the side that all of it leaves through a side of an object {:.4g} mm thick", layout.thickness),
+        "expected light that reaches some facet through the front",
+        "choose a smaller thickness_mm, or light that comes more from the front");
+}
+
+bool light_facets(Layout& layout)
+{
+  layout.incoming.clear();
+  if (!layout.lamp && layout.sines == glm::dvec2(0) && !layout.round) return true;
   layout.incoming.resize(layout.facet_count());
   for_ranges(layout.facet_count(), 1024, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin; i < range.end; ++i) layout.incoming[i] = incoming_at(layout, layout.middle(i));
   });
   double sum = 0;
   for (const Incoming& in : layout.incoming) sum += in.power;
-  if (!(sum > 0))
-    throw bad_input(
-        where,
-        fmt::format("comes so much from the side that all of it leaves through a side of an object {:.4g} mm thick", layout.thickness),
-        "expected light that reaches some facet through the front",
-        "choose a smaller thickness_mm, or light that comes more from the front");
   for (Incoming& in : layout.incoming) in.power *= static_cast<double>(layout.facet_count()) / sum;
+  return sum > 0;
+}
+
+double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size)
+{
+  const glm::dvec2 half = layout.size / 2.0;
+  if (!layout.round) {
+    const glm::dvec2 low = glm::max(middle - size / 2.0, -half), high = glm::min(middle + size / 2.0, half);
+    const glm::dvec2 part = glm::max(high - low, glm::dvec2(0)) / size;
+    return part.x * part.y;
+  }
+  constexpr int across = 8; // of points that are counted, where the rim may cross it
+  const double away = glm::length(middle / half), reach = glm::length(size / half) / 2;
+  if (away + reach < 1) return 1;
+  if (away - reach > 1) return 0;
+  int within = 0;
+  for (int i = 0; i < across * across; ++i) {
+    const glm::dvec2 at =
+        middle + ((glm::dvec2(i % across, i / across) + 0.5) / (1.0 * across) - 0.5) * size; // NOLINT(bugprone-integer-division)
+    within += glm::length(at / half) <= 1;
+  }
+  return within / (1.0 * across * across);
 }
 
 LightRay light_ray(const Layout& layout, const glm::dvec3& front)

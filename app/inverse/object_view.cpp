@@ -48,9 +48,9 @@ public:
 
   dvec3 seen(const dvec3& from, const dvec3& d) const
   {
-    const dvec3 low(-half_, lowest_), high(half_, l_.thickness), a = (low - from) / d, b = (high - from) / d;
-    const dvec3 first = glm::min(a, b), last = glm::max(a, b);
-    const double enter = std::max({first.x, first.y, first.z, 0.0}), leave = std::min({last.x, last.y, last.z});
+    const double down = (lowest_ - from.z) / d.z, up = (l_.thickness - from.z) / d.z, first = std::min(down, up);
+    const dvec2 sides = within_sides(from, d);
+    const double enter = std::max({sides.x, first, 0.0}), leave = std::min(sides.y, std::max(down, up));
     const dvec3 beside = backdrop(d) + sheets(from, d, without_end);
     if (!(enter < leave)) return beside;
     dvec3 at = from + enter * d, out(0);
@@ -61,18 +61,34 @@ public:
       out = surface(at).normal;
     } else if (enter == 0)
       return inside(from, d, dvec3(1));
-    else if (first.z == enter)
-      out.z = 1;
-    else {
-      const int axis = first.x == enter ? 0 : 1;
-      out[axis] = d[axis] > 0 ? -1 : 1;
-    }
+    else
+      out = first == enter ? dvec3(0, 0, 1) : side_normal(at);
     const double mirrored = optics::fresnel_reflectance(std::clamp(-glm::dot(d, out), 0.0, 1.0), 1, l_.n);
     return sheets(from, d, glm::distance(from, at)) + mirrored * room(glm::reflect(d, out)) +
            inside(at, glm::refract(d, out, 1 / l_.n), dvec3(1 - mirrored));
   }
 
 private:
+  /// From where to where a line is between the object's upright sides.
+  dvec2 within_sides(const dvec3& from, const dvec3& d) const
+  {
+    const dvec2 p = dvec2(from) / half_, way = dvec2(d) / half_;
+    if (!l_.round) {
+      const dvec2 a = (-1.0 - p) / way, b = (1.0 - p) / way, first = glm::min(a, b), last = glm::max(a, b);
+      return {std::max(first.x, first.y), std::min(last.x, last.y)};
+    }
+    const double a = glm::dot(way, way), b = glm::dot(p, way), root = b * b - a * (glm::dot(p, p) - 1); // |p + t way| = 1
+    if (root < 0 || a == 0) return root < 0 ? dvec2(without_end, -without_end) : dvec2(-without_end, without_end);
+    return {(-b - std::sqrt(root)) / a, (-b + std::sqrt(root)) / a};
+  }
+
+  dvec3 side_normal(const dvec3& at) const
+  {
+    const dvec2 p = dvec2(at) / half_;
+    if (l_.round) return glm::normalize(dvec3(p / half_, 0));
+    return std::abs(p.x) > std::abs(p.y) ? dvec3(glm::sign(p.x), 0, 0) : dvec3(0, glm::sign(p.y), 0);
+  }
+
   struct Surface {
     double z = 0;
     dvec3 normal{0, 0, -1}; ///< out of the glass
@@ -123,15 +139,8 @@ private:
   dvec3 inside(dvec3 from, dvec3 d, dvec3 weight) const
   {
     for (int i = 0; i < most_surfaces; ++i) {
-      double way = without_end;
-      dvec3 out(0);
-      for (int axis = 0; axis < 2; ++axis) {
-        const double t = ((d[axis] > 0 ? half_[axis] : -half_[axis]) - from[axis]) / d[axis];
-        if (!(t < way) || t < 0) continue;
-        way = t;
-        out = dvec3(0);
-        out[axis] = d[axis] > 0 ? 1 : -1;
-      }
+      double way = std::max(0.0, within_sides(from, d).y);
+      dvec3 out = side_normal(from + way * d);
       if (const double t = d.z > 0 ? (l_.thickness - from.z) / d.z : d.z < -1e-9 ? way_to_facets(from, d) : way; t < way) {
         way = t;
         out = d.z > 0 ? dvec3(0, 0, 1) : surface(from + t * d).normal;

@@ -28,9 +28,11 @@ constexpr std::uint64_t triangle_bytes = 145, copied_triangle_bytes = 21, facet_
 std::uint64_t triangles_of(const Settings& s, const Layout& l)
 {
   if (s.method != Settings::Method::lens) return 14 * l.facet_count();
-  const double miss = std::max(l.facet().x, l.facet().y) / std::min(l.cell().x, l.cell().y) / 2, // of light that is gathered in a point
-      bends = s.receivers.front().picture.type == Picture::Type::file ? 24 : 4.5;
-  return static_cast<std::uint64_t>((4 + bends * std::pow(miss / s.mesh_error, 2)) * static_cast<double>(l.facet_count()));
+  const Layout mesh = mesh_layout(l);
+  const double miss =
+      std::max(mesh.facet().x, mesh.facet().y) / std::min(l.cell().x, l.cell().y) / 2; // of light that is gathered in a point
+  const double bends = s.receivers.front().picture.type == Picture::Type::file ? 24 : 4.5;
+  return static_cast<std::uint64_t>((4 + bends * std::pow(miss / s.mesh_error, 2)) * static_cast<double>(mesh.facet_count()));
 }
 
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
@@ -66,7 +68,9 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
                       : "inverse.heights is flat: nothing is solved"},
       {"transport", lens, lens ? what : chosen},
       {"incoming", !straight,
-       straight ? "parallel light straight on: one direction for all facets" : "a direction of its own for each facet"},
+       straight  ? "parallel light straight on: one direction for all facets"
+       : l.round ? "a direction and a power of its own for each facet: none beside the round outline"
+                 : "a direction of its own for each facet"},
       {"judge", true,
        l.coloured ? "in colours, by rays through the finished solid, walls and all" : "rays through the finished solid, walls and all"}};
 }
@@ -78,7 +82,7 @@ InversePlan make_plan(const preset::Preset& preset)
   InversePlan plan;
   plan.layout = make_layout(preset);
   plan.targets = make_targets(preset, plan.layout);
-  plan.best = best_possible(plan.layout, plan.targets);
+  plan.best = best_possible(blurring_layout(settings(preset), plan.layout), plan.targets);
   const Layout& l = plan.layout;
   const std::uint64_t triangles = plan.triangles = triangles_of(settings(preset), l);
   if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Place(preset.source) / "inverse", settings(preset).mesh_error, triangles);
@@ -97,7 +101,9 @@ InversePlan make_plan(const preset::Preset& preset)
       {"the facets and their pictures (host)", facet_bytes * l.facet_count(), true},
       {"the solid and its tree (host)", triangle_bytes * triangles, true},
       {"a solid with errors (host)", settings(preset).tolerances ? copied_triangle_bytes * triangles : 0, true}};
-  if (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)
+  const bool drawn_by_lens =
+      settings(preset).method == Settings::Method::lens && settings(preset).receivers[0].picture.type != Picture::Type::file;
+  if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)) // a lens gathers a drawing's light
     plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
                                      "soft; choose more facets or fewer cells",
                                      l.facet().x, l.facet().y, l.cell().x, l.cell().y));

@@ -30,6 +30,13 @@ std::string outline(const glm::dvec2& middle, const glm::dvec2& size, const char
                      middle.y - size.y / 2, size.x, size.y, style);
 }
 
+std::string object_outline(const Layout& layout, const glm::dvec2& middle, const char* style)
+{
+  if (!layout.round) return outline(middle, layout.size, style);
+  return fmt::format("<ellipse cx=\"{:.6g}\" cy=\"{:.6g}\" rx=\"{:.6g}\" ry=\"{:.6g}\" fill=\"none\" {}/>\n", middle.x, middle.y,
+                     layout.size.x / 2, layout.size.y / 2, style);
+}
+
 std::string text(double x, double y, const std::string& words)
 {
   return fmt::format("<text x=\"{:.6g}\" y=\"{:.6g}\">{}</text>\n", x, y, escaped(words));
@@ -75,7 +82,7 @@ std::string object_page(const Layout& layout, const std::string& name)
   const glm::dvec2 sheet = sheet_for(layout.size, lines_above), middle(sheet.x / 2, margin + lines_above * text_line + layout.size.y / 2);
   return begun(sheet, name, fmt::format("The object, {:.6g} x {:.6g} mm, seen along the light:", layout.size.x, layout.size.y),
                "its flat front, where light enters, is on your side; the arrow is up.") +
-         outline(middle, layout.size, solid_line) + marks(middle, layout.size, solid_line) + "</svg>\n";
+         object_outline(layout, middle, solid_line) + marks(middle, layout.size, solid_line) + "</svg>\n";
 }
 
 std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast, const std::string& name)
@@ -92,7 +99,7 @@ std::string receiver_page(const Layout& layout, std::size_t receiver, const job:
          fmt::format("<image x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" preserveAspectRatio=\"none\" "
                      "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n",
                      corner.x, corner.y, layout.receiver.x, layout.receiver.y, base64(image::png(cast.width, cast.height, cast.rgb))) +
-         outline(middle, layout.receiver, solid_line) + (offset == glm::dvec2(0) ? outline(middle, layout.size, dashed_line) : "") +
+         outline(middle, layout.receiver, solid_line) + (offset == glm::dvec2(0) ? object_outline(layout, middle, dashed_line) : "") +
          "</svg>\n";
 }
 

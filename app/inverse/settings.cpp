@@ -91,6 +91,9 @@ void check(const preset::Preset& preset, const Where& where)
   if (lens && s.receivers.size() > 1)
     refuse("method", fmt::format("is \"lens\", and there are {} receivers", s.receivers.size()),
            "expected one, because a smooth surface casts one picture", "choose \"assign\", or keep one receiver");
+  if (!lens && s.outline == Settings::Outline::round)
+    refuse("outline", fmt::format("is \"round\", and the method \"{}\" makes rows of facets", preset::word(s.method)),
+           "expected \"rectangle\"", "or choose the method \"lens\"");
   if (lens && free_heights)
     refuse("heights", "is \"free\", and the method \"lens\" makes a surface without steps", "expected none", "remove it");
   if (lens && s.draft_deg > 0)

@@ -77,8 +77,10 @@ struct Light {
 struct Settings {
   enum class Method { assign, thesis, lens };
   enum class Heights { flat, free };
+  enum class Outline { rectangle, round };
   Method method = Method::assign;
   std::array<double, 2> size_mm{100, 100};  ///< of the object
+  Outline outline = Outline::rectangle;     ///< of the object, within size_mm
   double thickness_mm = 10;                 ///< from the middle of the relief to the flat front
   Heights heights = Heights::flat;          ///< where the facets' middles are
   std::optional<double> min_thickness_mm{}; ///< nowhere is the object thinner

@@ -86,7 +86,7 @@ typedef struct {
   int columns, along; // facets of a row; rays along one side of a facet
   int cells_x, cells_y, screens;
   uint part_step; // from a ray's part of the spectrum to the next one's; 0: of one index
-  int padding;
+  int is_round; // 1: light falls on the ellipse within the front
 } DeviceFront;
 
 // A ray's way out of the object.

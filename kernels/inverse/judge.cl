@@ -50,7 +50,7 @@ static inline DeviceWayOut follow(global const float* nodes, global const float*
       direction = refract_through(direction, normal, cos_i, cos_t, before / behind);
     }
   }
-  if (surfaces == MAX_SURFACES || direction.z >= 0.0f) way.part = 0.0f;
+  if (surfaces == 0 || surfaces == MAX_SURFACES || direction.z >= 0.0f) way.part = 0.0f;
   way.from.xyz = from;
   way.direction.xyz = direction;
   return way;
@@ -103,6 +103,7 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   const float2 at = (float2)((float)column + ((float)(ray % along) + random.x) / (float)along,
                              (float)row + ((float)(ray / along) + random.y) / (float)along);
   const float3 place = (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
+  if (front.is_round && length(place.xy / (float2)(front.size_x, front.size_y)) > 0.5f) return;
   float3 direction = front.direction.xyz;
   float part = 1.0f / (float)rays; // of what falls on a facet
   if (front.lamp_weight > 0.0f) {
@@ -110,7 +111,8 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
     const float distance = length(way);
     direction = way / distance;
     part *= front.lamp_weight * -way.z / (distance * distance * distance);
-  }
+  } else if (front.is_round)
+    part *= 4.0f / M_PI_F;
   float n = front.n;
   float4 colour = (float4)(1.0f);
 #if NEPHROID_SPREAD

@@ -164,6 +164,49 @@ TEST_F(Lens, IsLitFromTheSideAndByALamp)
   }
 }
 
+// A round lens gets the light of a disc alone: what falls on its corners is not there. Receivers are smaller and larger than the object.
+TEST_F(Lens, MayBeRoundAndOfAnotherSizeThanItsReceiver)
+{
+  using inverse::Light;
+  for (const auto& [round, light, receiver] :
+       {std::tuple(true, Light{}, glm::dvec2(60, 40)),
+        {true, Light{.tilt_deg = 5, .turn_deg = 30}, {60, 40}},
+        {true, Light{.type = Light::Type::point, .distance_mm = 400, .offset_mm = {10, -5}}, {60, 40}},
+        {true, Light{}, {40, 30}},
+        {false, Light{}, {40, 30}},
+        {false, Light{}, {90, 60}},
+        {true, Light{}, {90, 60}}}) {
+    inverse::Layout lit = layout;
+    lit.thickness = 20;
+    lit.round = round;
+    lit.receiver = receiver;
+    inverse::set_light(lit, light, own);
+    inverse::Lens method(lit, target, 0.3, own);
+    while (!method.finished() && method.steps() < method.most()) method.advance();
+    const inverse::Solid solid = method.solid();
+    inverse::Judge judge(test::shared_context(), lit, solid, 1);
+    while (!judge.finished()) judge.advance();
+    const inverse::Cost judged = judge.costs({target}).front();
+    const std::string what = fmt::format("{} {} {} {}", round, light.tilt_deg, light.distance_mm, receiver.x);
+    EXPECT_LT(judged.rel_l2, 0.1) << what;
+    EXPECT_LT(judged.missed, 0.02) << what;
+    EXPECT_NEAR(judged.rel_l2, method.costs().front().rel_l2, 0.03) << what;
+    EXPECT_NEAR(judge.fates().sent + judge.fates().reflected + judge.fates().lost, 1, light.type == Light::Type::point ? 1e-3 : 1e-4)
+        << what;
+    EXPECT_NEAR(method.relief() / solid.relief(), 1, 0.05) << what;
+  }
+}
+
+// The ellipse within 60 x 40.
+TEST(PartWithin, IsAnEllipsesArea)
+{
+  const inverse::Layout layout{.size = {60, 40}, .round = true, .facets = {33, 20}};
+  double area = 0;
+  for (std::size_t i = 0; i < layout.facet_count(); ++i)
+    area += inverse::part_within(layout, layout.middle(i), layout.facet()) * layout.facet().x * layout.facet().y;
+  EXPECT_NEAR(area / (glm::pi<double>() * 30 * 20), 1, 2e-3);
+}
+
 TEST_F(Lens, IsRefusedWhereItsMeshIsTooLarge)
 {
   inverse::Lens fine(layout, target, 0.001, own);

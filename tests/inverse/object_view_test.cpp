@@ -56,6 +56,21 @@ TEST(ObjectView, AFacetShowsWhereItsLightGoes)
   for (std::size_t i = 0; i < 16; ++i) EXPECT_EQ(red(*scene.seen_by(along_the_light()), i) > 0.5f, i == 9) << i;
 }
 
+// A facet in the corner of a round object is not there: the camera sees past it.
+TEST(ObjectView, ARoundObjectHasNoCorners)
+{
+  Scene scene;
+  scene.slopes[0] = (scene.layout.middle_of_cell(15) - scene.layout.middle(0)) / 200.0;
+  EXPECT_LT(red(*scene.seen_by(along_the_light()), 0), 0.5f);
+  scene.layout.round = true;
+  EXPECT_GT(red(*scene.seen_by(along_the_light()), 0), 0.5f);
+  preset::Camera camera = along_the_light(); // from the side, where a ray meets the middle of the rim and one passes the corner
+  camera.position = {-300, 0, 5};
+  camera.target = {0, 0, 5};
+  camera.resolution = {33, 33};
+  EXPECT_THAT(scene.seen_by(camera)->rgb, testing::Each(testing::Ge(0)));
+}
+
 // Into its sides, along its front, from inside of it and from its own target, which sees nothing: none of these falls out of the object.
 TEST(ObjectView, ACameraMayBeAnywhere)
 {

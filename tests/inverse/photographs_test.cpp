@@ -6,6 +6,7 @@
 #include "inverse/pictures/preview.h"
 #include "inverse/pictures/target.h"
 #include "preset/read.h"
+#include "tests/support/jpeg.h"
 #include "tests/support/render.h"
 #include "tests/support/test.h"
 #include "tests/support/tiff.h"
@@ -142,6 +143,17 @@ TEST_F(Photographs, AreRefusedWhereTheyAreHuge)
               AllOf(HasSubstr("p.hdr"), HasSubstr("60000 x 60000 pixels of 3 channels, and at most 2^32 values are read")));
 }
 
+// A JPEG without its second half, whose pixels a decoder makes grey.
+TEST_F(Photographs, AreRefusedWithoutTheirEnd)
+{
+  const std::string whole = test::jpeg(), file = (folder.path() / "p.jpg").string();
+  write_file_whole(file, whole);
+  EXPECT_EQ(made({.type = Picture::Type::file, .file = file}, cells(8, 8)).size(), 64u);
+  write_file_whole(file, whole.substr(0, whole.size() - 100));
+  const std::string said = test::refusal_of([&] { made({.type = Picture::Type::file, .file = file}, cells(8, 8)); });
+  EXPECT_THAT(said, AllOf(HasSubstr("p.jpg: is no picture that can be read"), HasSubstr("Premature end of JPEG file")));
+}
+
 /// Facets of a cell's size and light that rough surfaces do not scatter: every picture can be cast.
 Layout layout_with(double scatter) { return {.facets = {32, 32}, .cells = {32, 32}, .distances = {200}, .scatter = scatter}; }
 
@@ -211,6 +223,38 @@ TEST_F(PictureNotes, SayWhatAPhotographComesTo)
   // The background that it asks for leaves the other note alone.
   EXPECT_THAT(notes(R"(, "background": 0.2}}])"), ElementsAre(HasSubstr("choose the method 'lens'")));
   EXPECT_THAT(notes(R"(, "background": 0.2}}], "scatter_deg": 1)"), Contains(HasSubstr("comes hardly closer than")));
+}
+
+// In every light the coarse lens is as deep as the one that is made.
+TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide)
+{
+  for (const char* light : {R"({"type": "parallel", "tilt_deg": 5, "turn_deg": 30})", R"({"type": "point", "distance_mm": 500})"})
+    for (const char* outline : {"rectangle", "round"}) {
+      const preset::Preset p = preset::parse_preset(fmt::format(R"({{"engine": "inverse", "scene": {{"camera": {{}}}}, "inverse": {{
+        "method": "lens", "facets": [64, 64], "cells": [32, 32], "index": 1.5, "thickness_mm": 40, "light": {}, "outline": "{}",
+        "receivers": [{{"distance_mm": 300, "picture": {{"type": "ring"}}}}]}}}})",
+                                                                light, outline),
+                                                    "p.json");
+      const InversePlan plan = make_plan(p);
+      const auto job = make_job(p, plan, test::shared_context());
+      while (!job->finished()) job->step();
+      const double deep = job::scalar(job->snapshot(), "object", "relief_mm");
+      EXPECT_NEAR(estimated_relief(plan.layout, plan.targets[0]) / deep, 1, 0.1) << light << outline;
+    }
+}
+
+// A lens gathers the light of facets that are larger than a cell: nothing may be said to come of their size.
+TEST_F(PictureNotes, ALensHasNoGrain)
+{
+  preset::Preset p = preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"method": "lens",
+    "facets": [16, 16], "cells": [64, 64], "index": 1.5, "thickness_mm": 40, "receivers": [{"distance_mm": 300, "picture": {"type": "ring"}}]}})",
+                                          "p.json");
+  EXPECT_THAT(make_plan(p).notes, IsEmpty());
+  settings(p).scatter_deg = 1;
+  EXPECT_THAT(make_plan(p).notes, ElementsAre(HasSubstr("picture 1 comes hardly closer than")));
+  settings(p).method = Settings::Method::assign;
+  settings(p).scatter_deg = 0;
+  EXPECT_THAT(make_plan(p).notes, Contains(HasSubstr("are larger than half a cell")));
 }
 
 // The coarse lens is as deep as the one that is made.

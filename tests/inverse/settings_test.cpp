@@ -73,6 +73,9 @@ TEST_F(InverseSettings, ALensCastsOnePicture)
       AllOf(HasSubstr("is \"lens\", and there are 2 receivers"), HasSubstr("choose \"assign\"")));
   EXPECT_THAT(refusal({"inverse.method=lens", "inverse.heights=free"}), HasSubstr("a surface without steps"));
   EXPECT_THAT(refusal({"inverse.method=lens", "inverse.draft_deg=3"}), HasSubstr("a surface without walls"));
+  EXPECT_THAT(refusal({"inverse.outline=round"}),
+              AllOf(HasSubstr("is \"round\", and the method \"assign\" makes rows of facets"), HasSubstr("choose the method \"lens\"")));
+  EXPECT_NO_THROW(inverse::make_plan(read({"inverse.method=lens", "inverse.outline=round"})));
   EXPECT_NO_THROW(inverse::make_plan(read({"inverse.method=lens", R"(inverse.light={"type": "parallel", "tilt_deg": 5})"})));
   EXPECT_NO_THROW(inverse::make_plan(read({"inverse.method=lens", R"(inverse.light={"type": "point", "distance_mm": 500})"})));
   EXPECT_THAT(refusal({"inverse.method=lens", "inverse.facets=[1024, 1024]", "inverse.cells=[512, 512]", "inverse.mesh_error=0.05"}),

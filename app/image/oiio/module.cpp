@@ -31,6 +31,12 @@ const char* reason(std::string text)
   return kept_reason.c_str();
 }
 
+/// Of a picture that is read: what is missing of it, such as a JPEG's end, whose pixels are grey then. Bytes too many harm nothing.
+bool is_damaged(const ImageInput& input, bool done)
+{
+  return !done || (input.has_error() && input.geterror(false).find("extraneous bytes") == std::string::npos);
+}
+
 /// Exceptions (out of memory, or from a file that lies about its size) must not cross the C seam.
 template <class Call>
 const char* guarded(Call call)
@@ -92,7 +98,8 @@ const char* read(const char* file, void (*take)(void*, const NephroidPicture*), 
   const ImageSpec& spec = input->spec();
   const std::size_t values = values_of(spec);
   std::vector<float> floats(values);
-  if (!input->read_image(0, 0, 0, spec.nchannels, TypeFloat, floats.data())) return reason(input->geterror());
+  const bool done = input->read_image(0, 0, 0, spec.nchannels, TypeFloat, floats.data());
+  if (is_damaged(*input, done)) return reason(input->geterror());
   int width = spec.width, height = spec.height;
   if (const int orientation = spec.get_int_attribute("Orientation", 1); orientation != 1) { // as a camera was held (Exif)
     ImageSpec own(spec.width, spec.height, spec.nchannels, TypeFloat);
@@ -137,7 +144,7 @@ const char* read_bands(const char* file, bool (*take)(void*, const NephroidBand*
     const bool done = spec.tile_width > 0 ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
                                                               spec.nchannels, TypeFloat, floats.data())
                                           : input->read_scanlines(0, 0, begin, end, spec.z, 0, spec.nchannels, TypeFloat, floats.data());
-    if (!done) return reason(input->geterror());
+    if (is_damaged(*input, done)) return reason(input->geterror());
     const NephroidBand band{
         {spec.width, count, spec.nchannels, channels.data(), floats.data(), nullptr, nullptr, 0, !spec.format.is_floating_point()},
         first,

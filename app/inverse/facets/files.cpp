@@ -25,7 +25,8 @@ int pixels_across(const Layout& layout) { return std::max(4, 1024 / std::max(lay
 std::string scale_of(const Layout& layout)
 {
   const glm::dvec2 pixel = layout.facet() / static_cast<double>(pixels_across(layout));
-  return fmt::format("a pixel is {:.6g} x {:.6g} mm; seen from the facets' side, +x is at the left", pixel.x, pixel.y);
+  return fmt::format("a pixel is {:.6g} x {:.6g} mm; seen from the facets' side, +x is at the left{}", pixel.x, pixel.y,
+                     layout.round ? "; 0 beside the object" : "");
 }
 
 /// What one step of the 16-bit map is.
@@ -95,6 +96,7 @@ std::string workshop_page(const Layout& layout, const Solid& solid, const std::s
   };
   const auto mm = [](double length) { return fmt::format("{:.4g} mm", length); };
   row("width x height", fmt::format("{:.6g} x {:.6g} mm", layout.size.x, layout.size.y));
+  if (layout.round) row("outline", layout.size.x == layout.size.y ? "a disc" : "an ellipse");
   row("greatest thickness", mm(layout.thickness - solid.lowest));
   row("smallest thickness", mm(layout.thickness - solid.highest));
   row("depth of the relief", mm(solid.relief()));
@@ -151,7 +153,12 @@ image::Image height_map(const Layout& layout, const Solid& solid)
       const std::size_t facet = index_at(x / across, y / across, layout.facets.x);
       const Facet& f = solid.facets[facet];
       const glm::dvec2 beside = glm::dvec2(from_middle(x), -from_middle(y)) * pixel;
-      const double z = solid.surface ? solid.surface->at(layout.middle(facet) + beside).z : f.height + glm::dot(f.gradient, beside);
+      const glm::dvec2 p = layout.middle(facet) + beside;
+      if (layout.round && glm::length(p / layout.size) > 0.5) {
+        map.data.push_back(0);
+        continue;
+      }
+      const double z = solid.surface ? solid.surface->at(p).z : f.height + glm::dot(f.gradient, beside);
       map.data.push_back(static_cast<float>(layout.thickness - z));
     }
   map.attributes["ImageDescription"] = "thickness in mm; " + scale_of(layout);

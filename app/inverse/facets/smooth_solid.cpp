@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "inverse/bending.h"
+#include "inverse/facets/outline.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -29,7 +30,7 @@ double largest_stretch(const glm::dmat2& m)
 class SmoothBuilder {
 public:
   SmoothBuilder(const Layout& layout, const Surface& surface, const std::vector<int>& parts)
-      : layout_(layout), surface_(surface), parts_(parts), nx_(layout.facets.x), ny_(layout.facets.y)
+      : layout_(layout), grid_(mesh_layout(layout)), surface_(surface), parts_(parts), nx_(grid_.facets.x), ny_(grid_.facets.y)
   {
   }
 
@@ -51,7 +52,10 @@ public:
   {
     number_edges();
     make_facets();
-    make_rim();
+    if (layout_.round)
+      cut_round(layout_, surface_, solid_);
+    else
+      make_rim();
     solid_.surface = std::make_shared<const Surface>(surface_);
     measure();
     return std::move(solid_);
@@ -72,7 +76,7 @@ private:
   /// x and y in facets from the top left corner.
   std::uint32_t add(double x, double y)
   {
-    const glm::dvec2 p(x * layout_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - y * layout_.facet().y);
+    const glm::dvec2 p(x * grid_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - y * grid_.facet().y);
     solid_.mesh.positions.emplace_back(glm::dvec3(p, surface_.at(p).z));
     return static_cast<std::uint32_t>(solid_.mesh.positions.size() - 1);
   }
@@ -143,11 +147,12 @@ private:
       }
   }
 
-  /// The sides, down from the front's rim, and the front: strips along y, one a column, so that rays find their triangle soon.
+  /// Of a rectangle: the sides, down from the front's rim, and the front: strips along y, one a column, so that rays find their triangle
+  /// soon.
   void make_rim()
   {
     const auto front = [&](int a, int b) {
-      solid_.mesh.positions.emplace_back(a * layout_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - b * layout_.facet().y,
+      solid_.mesh.positions.emplace_back(a * grid_.facet().x - layout_.size.x / 2, layout_.size.y / 2 - b * grid_.facet().y,
                                          layout_.thickness);
       return static_cast<std::uint32_t>(solid_.mesh.positions.size() - 1);
     };
@@ -207,6 +212,7 @@ private:
   }
 
   const Layout& layout_;
+  Layout grid_;
   const Surface& surface_;
   const std::vector<int>& parts_;
   int nx_, ny_;
@@ -216,19 +222,34 @@ private:
 
 } // namespace
 
-std::vector<int> mesh_parts(const Layout& layout, const Surface& surface, double mesh_error)
+Layout mesh_layout(Layout layout)
 {
+  constexpr int most = 4096; // across and down
+  const glm::dvec2 facet = layout.facet();
+  for (const int axis : {0, 1}) {
+    const double times = std::min(std::round(facet[axis] / facet[1 - axis]), static_cast<double>(most / layout.facets[axis]));
+    layout.facets[axis] *= std::max(1, static_cast<int>(times));
+  }
+  return layout;
+}
+
+std::vector<int> mesh_parts(const Layout& of, const Surface& surface, double mesh_error)
+{
+  const Layout layout = mesh_layout(of);
   std::vector<double> misses(layout.facet_count()); // of facets in one part, in cells
   const double side = std::max(layout.facet().x, layout.facet().y) / std::min(layout.cell().x, layout.cell().y);
   for_ranges(misses.size(), 4096, [&](std::size_t, const Range& range) {
-    for (std::size_t i = range.begin; i < range.end; ++i)
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (part_within(layout, layout.middle(i), layout.facet()) == 0) continue;
       for (const glm::dvec2& corner : {glm::dvec2(0, 0), {-0.5, -0.5}, {0.5, -0.5}, {-0.5, 0.5}, {0.5, 0.5}}) {
         const Surface::At at = surface.at(layout.middle(i) + corner * layout.facet());
         const double moves = std::abs(layout.n - 1) * (1 + glm::dot(at.gradient, at.gradient)) * (layout.distances.front() + at.z);
         misses[i] = std::max(misses[i], moves * largest_stretch(at.curvature) * side / 2);
       }
+    }
   });
   std::vector<int> parts(misses.size());
+  const double within = static_cast<double>(misses.size()) * (layout.round ? glm::pi<double>() / 4 : 1);
   const auto error_with = [&](double scale) {
     double squares = 0;
     for (std::size_t i = 0; i < misses.size(); ++i) {
@@ -236,7 +257,7 @@ std::vector<int> mesh_parts(const Layout& layout, const Surface& surface, double
       parts[i] = 1 << static_cast<int>(std::min(exponent, std::log2(most_parts)));
       squares += misses[i] * misses[i] / (parts[i] * parts[i]);
     }
-    return std::sqrt(squares / static_cast<double>(misses.size()));
+    return std::sqrt(squares / within);
   };
   constexpr double finest = 1e9, step = 1.1;
   double scale = 1e-3;

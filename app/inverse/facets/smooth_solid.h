@@ -9,11 +9,14 @@
 
 namespace nephroid::inverse {
 
-/// Parts of each facet along a side, a power of two up to 64: so many that flat triangles send light no further from where the surface
-/// sends it than mesh_error cells, in the mean of squares over the facets. A triangle is as steep as the surface half a part's side away
-/// from its corners at most, and where the surface's slope changes by C a millimetre, light behind it moves by
-/// distance (n - 1) (1 + g^2) C a millimetre, for light nearly straight on. Of all meshes the one of the fewest triangles has parts as the
-/// square root of what a whole facet would miss by.
+/// The layout with long facets cut into such as are as wide as high, nearly, which the mesh is made of.
+Layout mesh_layout(Layout layout);
+
+/// Parts of each of mesh_layout()'s facets along a side, a power of two up to 64: so many that flat triangles send light no further from
+/// where the surface sends it than mesh_error cells, in the mean of squares over the facets. A triangle is as steep as the surface half a
+/// part's side away from its corners at most, and where the surface's slope changes by C a millimetre, light behind it moves by distance (n
+/// - 1) (1 + g^2) C a millimetre, for light nearly straight on. Of all meshes the one of the fewest triangles has parts as the square root
+/// of what a whole facet would miss by.
 std::vector<int> mesh_parts(const Layout& layout, const Surface& surface, double mesh_error);
 
 std::uint64_t count_triangles(const Layout& layout, const std::vector<int>& parts);

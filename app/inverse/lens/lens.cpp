@@ -97,7 +97,12 @@ Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Place 
   fine_.facets *= parts_of_facet(layout);
   fine_.free_heights = true; // no wall stands in the light
   fine_.incoming.clear();
-  for (std::size_t i = 0; i < fine_.facet_count() && !layout.incoming.empty(); ++i) fine_.incoming.push_back(incoming_at(fine_.middle(i)));
+  for (std::size_t i = 0; i < fine_.facet_count() && !layout.incoming.empty(); ++i) {
+    const glm::dvec2 p = fine_.middle(i);
+    fine_.incoming.push_back(incoming_at(p));
+    if (const double facet = part_within(layout, layout.middle(facet_at(p)), layout.facet()); layout.round && facet > 0)
+      fine_.incoming.back().power *= part_within(fine_, p, fine_.facet()) / facet;
+  }
   see();
 }
 
@@ -109,16 +114,19 @@ std::uint64_t Lens::bytes(const Layout& layout)
   return layout.facet_count() * parts * parts * of_part + grids * sizeof(double) * cells * cells;
 }
 
+/// The facet about a point, or the nearest one.
+std::size_t Lens::facet_at(const glm::dvec2& p) const
+{
+  const glm::ivec2 column_row((p.x + layout_.size.x / 2) / layout_.facet().x, (layout_.size.y / 2 - p.y) / layout_.facet().y);
+  const glm::ivec2 inside = glm::clamp(column_row, glm::ivec2(0), layout_.facets - 1);
+  return index_at(inside.x, inside.y, layout_.facets.x);
+}
+
 /// Of light on a point of the surface, by the facet about it.
 Incoming Lens::incoming_at(const glm::dvec2& p, double height) const
 {
   if (layout_.incoming.empty()) return {};
-  const auto nearest = [&](const glm::dvec2& at) {
-    const glm::ivec2 column_row((at.x + layout_.size.x / 2) / layout_.facet().x, (layout_.size.y / 2 - at.y) / layout_.facet().y);
-    const glm::ivec2 inside = glm::clamp(column_row, glm::ivec2(0), layout_.facets - 1);
-    return index_at(inside.x, inside.y, layout_.facets.x);
-  };
-  const std::size_t facet = nearest(p);
+  const std::size_t facet = facet_at(p);
   Incoming in = layout_.incoming[facet];
   in.sines += in.spread * (p + slope_inside(in.sines, layout_.n) * height - layout_.middle(facet));
   return in;
@@ -164,8 +172,24 @@ Grid Lens::bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface:
   source.rightCols(columns - 1) += across.leftCols(columns - 1);
   source.bottomRows(rows - 1) += down.topRows(rows - 1);
   Grid heights = heights_ + heights_of_.solve(source);
-  heights.array() -= (heights.minCoeff() + heights.maxCoeff()) / 2;
+  const glm::dvec2 most = lowest_highest(heights);
+  heights.array() -= (most.x + most.y) / 2;
   return heights;
+}
+
+/// Of the surface within the outline: at the facets' corners, those beside a round one being moved onto it.
+glm::dvec2 Lens::lowest_highest(const Grid& heights) const
+{
+  if (!layout_.round) return {heights.minCoeff(), heights.maxCoeff()};
+  const Surface surface(layout_.size, heights);
+  glm::dvec2 most(std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity());
+  for (int row = 0; row <= layout_.facets.y; ++row)
+    for (int column = 0; column <= layout_.facets.x; ++column) {
+      const glm::dvec2 p = glm::dvec2(column, layout_.facets.y - row) * layout_.facet() - layout_.size / 2.0;
+      const double z = surface.at(p / std::max(1.0, 2 * glm::length(p / layout_.size))).z;
+      most = {std::min(most.x, z), std::max(most.y, z)};
+    }
+  return most;
 }
 
 void Lens::set_heights(Grid heights)
@@ -230,6 +254,7 @@ void Lens::correct()
   const glm::dvec2 cell = domain_ / glm::dvec2(wanted_.cols(), wanted_.rows()), cells(wanted_.cols(), wanted_.rows());
   set_heights(bent([&](const glm::dvec2& p, const Surface::At& at) {
     const glm::dvec2 to = landing(p, at);
+    if (layout_.round && glm::length(p / layout_.size) > 0.5) return to; // there is no light to move
     const glm::dvec2 on_grid = glm::clamp(glm::dvec2(to.x + domain_.x / 2, domain_.y / 2 - to.y) / cell - 0.5, glm::dvec2(0), cells - 1.0);
     const glm::dvec2 move = flow.at(on_grid).gradient * (share_ / std::max(least, amount.at(on_grid).value));
     return to + move * cell * glm::dvec2(1, -1);
@@ -272,7 +297,7 @@ constexpr double most_of_thickness = 0.9;
 
 Solid Lens::solid() const
 {
-  const double reach = heights_.maxCoeff(); // and as far below z = 0
+  const double reach = this->reach(); // and as far below z = 0
   const auto refuse = [&](const Place& where, double value) {
     throw bad_input(where, fmt::format("is {} mm, and half of the lens's relief is {:.4g} mm", value, reach),
                     fmt::format("expected at least {:.4g} mm", reach / most_of_thickness),

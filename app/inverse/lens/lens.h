@@ -72,6 +72,7 @@ public:
 
   const std::vector<glm::dvec2>& slopes() const override { return slopes_; }
   std::vector<double> heights() const override;
+  double relief() const { return 2 * reach(); } ///< of the facets' corners
   const std::vector<double>& light(std::size_t) const override { return light_.front(); }
   std::vector<Cost> costs() const override { return {cost_of(target_, light_.front(), sent_)}; }
   Solid solid() const override;
@@ -87,12 +88,15 @@ private:
 
   void correct();
   glm::dvec2 goal(const glm::dvec2& p) const;
+  std::size_t facet_at(const glm::dvec2& p) const;
   Incoming incoming_at(const glm::dvec2& p, double height = 0) const;
   glm::dvec2 landing(const glm::dvec2& p, const Surface::At& at) const;
   Grid bent(const std::function<glm::dvec2(const glm::dvec2&, const Surface::At&)>& goal) const;
   void set_heights(Grid heights);
   void see();
   std::vector<glm::dvec2> corners_land() const;
+  glm::dvec2 lowest_highest(const Grid& heights) const;
+  double reach() const { return lowest_highest(heights_).y; }
 
   const Layout& layout_;
   const Target& target_;

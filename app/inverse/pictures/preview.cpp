@@ -124,6 +124,13 @@ double width(const Smear& smear, double cell)
 
 } // namespace
 
+Layout blurring_layout(const Settings& settings, Layout layout)
+{
+  constexpr double smaller = 256;
+  if (settings.method == Settings::Method::lens) layout.size /= smaller;
+  return layout;
+}
+
 Target best_possible(const Layout& layout, const Target& target, std::size_t receiver)
 {
   const Smears smears = smears_of(layout, receiver);
@@ -174,15 +181,12 @@ double estimated_relief(const Layout& layout, const Target& target)
   const auto reduced = [](const glm::ivec2& from) { return glm::max(from * most / std::max({from.x, from.y, most}), 2); };
   coarse.facets = reduced(layout.facets);
   coarse.cells = reduced(layout.cells);
-  coarse.incoming.clear(); // a table of the many facets: light straight on makes the same relief
-  coarse.lamp.reset();
+  light_facets(coarse);
   Target wanted(coarse.cell_count());
   for (std::size_t c = 0; c < target.size(); ++c) wanted[*coarse.cell_at(layout.middle_of_cell(c))] += target[c];
   Lens lens(coarse, wanted, 1, {}); // the mesh is not made
   while (lens.steps() == 0) lens.advance();
-  const std::vector<double> heights = lens.heights();
-  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-  return *high - *low;
+  return lens.relief();
 }
 
 std::vector<std::string> picture_notes(const Settings& settings, const Layout& layout, const std::vector<Target>& targets,
@@ -192,7 +196,7 @@ std::vector<std::string> picture_notes(const Settings& settings, const Layout& l
   for (std::size_t j = 0; j < targets.size(); ++j) {
     const bool photograph = settings.receivers[j].picture.type == Picture::Type::file;
     if (const double off = cost_of(targets[j], best[j], 1).rel_l2; off > far_off) {
-      const Smears smears = smears_of(layout, j);
+      const Smears smears = smears_of(blurring_layout(settings, layout), j);
       notes.push_back(
           fmt::format("picture {} comes hardly closer than {:.2f} (rel_l2): a facet's light is {:.3g} x {:.3g} mm wide there, a "
                       "cell {:.3g} x {:.3g} mm; choose fewer cells, more facets or less blur",
@@ -207,7 +211,7 @@ std::vector<std::string> picture_notes(const Settings& settings, const Layout& l
   if (settings.method == Settings::Method::assign && one_photograph)
     notes.push_back(
         "flat facets cast patches of their own size, which a photograph shows as grain or rings; for one picture choose the method 'lens'");
-  if (settings.method == Settings::Method::lens && layout.incoming.empty()) // other light asks for other depths
+  if (settings.method == Settings::Method::lens)
     if (const double relief = estimated_relief(layout, targets[0]); relief > deep * layout.thickness)
       notes.push_back(
           fmt::format("the lens becomes some {:.2g} mm deep, and the object is {} mm thick: {:.2g} mm are left at its thinnest; "

@@ -9,6 +9,9 @@
 
 namespace nephroid::inverse {
 
+/// The layout, as light blurs its pictures: a lens gathers the light of its facets, whose size then blurs nothing.
+Layout blurring_layout(const Settings& settings, Layout layout);
+
 /// The closest to a target that so many facets could cast, were it their only picture, to within a tenth: any light a cell that is not
 /// negative, each smeared by the footprint of a facet that hardly bends it. So the size of facets, the sun, roughness and dispersion are in
 /// it; that pictures fight is not. Least squares, by FISTA (Beck and Teboulle 2009). Sums to 1.
