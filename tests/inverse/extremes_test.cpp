@@ -75,11 +75,12 @@ Outcome loses_at_most(const Json& settings, double part)
 const std::vector<Extreme> objects{
     {"Micrometres", "an object of 0.1 mm", "scale invariance: the pictures of 100 mm", [] { return same_picture_at(1e-3); }},
     {"Metres", "an object of 100 m", "the same", [] { return same_picture_at(1e3); }},
-    {"IndexNextToOne", "n = 1.001", "light cannot be bent so far",
+    {"IndexNextToOne", "n = 1.001", "facets so steep need a thicker object",
      [] {
-       return refuses(
-           with(R"({"index": 1.001})"),
-           "p.json#/inverse/index: is 1.00100 at 550 nm, which bends hardly any light; expected one that differs from 1 by at least 0.001");
+       return refuses(with(R"({"index": 1.001})"),
+                      "p.json#/inverse/thickness_mm: is 10 mm, and facets of 3.125 x 3.125 mm can reach 31.16 mm from their middle; "
+                      "expected more than "
+                      "that, so that the object holds together; choose more facets, a larger value here or another index");
      }},
     {"IndexOne", "n = 1", "nothing is there",
      [] {
@@ -117,7 +118,7 @@ const std::vector<Extreme> screens{
     {"AllWhite", "a picture that is white everywhere", "a window casts it",
      [] { return at_most(judged(alone(R"({"distance_mm": 100, "picture": {"type": "disc", "radius": 2}})"), "rel_l2"), 0.05); }},
     {"OneCell", "all light wanted in four cells of 256", "geometry: facets and cells leave room for it",
-     [] { return loses_at_most(alone(R"({"distance_mm": 200, "picture": {"type": "disc", "radius": 0.05}})"), 0.01); }},
+     [] { return loses_at_most(alone(R"({"distance_mm": 200, "picture": {"type": "disc", "radius": 0.05}})"), 0.03); }},
     {"SixteenAlike", "16 discs from 100 to 101.5 mm", "the slopes of one serve all: its own error",
      [] {
        Json settings = with(R"({"receivers": []})");

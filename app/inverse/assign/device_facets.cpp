@@ -169,13 +169,14 @@ DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout
       done_(context, "facets that have looked", most_in_a_batch)
 {
   const compute::Defines defines = facet_defines(layout);
-  const compute::Program light(context, "inverse/light.cl", defines), search(context, "inverse/search.cl", defines);
+  const compute::Program light(context, "inverse/light.cl", defines), propose(context, "inverse/propose.cl", defines),
+      search(context, "inverse/search.cl", defines);
   add_light_ = light.kernel("add_light");
   find_lack_ = light.kernel("find_lack");
   find_gradient_ = light.kernel("find_gradient");
-  smear_x_ = search.kernel("smear_x");
-  smear_y_ = search.kernel("smear_y");
-  propose_ = search.kernel("propose");
+  smear_x_ = propose.kernel("smear_x");
+  smear_y_ = propose.kernel("smear_y");
+  propose_ = propose.kernel("propose");
   look_ = search.kernel("look");
   claim_ = search.kernel("claim");
   take_ = search.kernel("take");

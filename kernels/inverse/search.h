@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What kernels share in which a facet looks for a slope: what stands around it, and the lattice that it tries.
+#ifndef NEPHROID_SEARCH_H
+#define NEPHROID_SEARCH_H
+
+#include "kernels/inverse/light.h"
+#include "kernels/tracing/random.h"
+
+// 1: neighbours are to be alike.
+#ifndef NEPHROID_SMOOTHS
+#define NEPHROID_SMOOTHS 1
+#endif
+
+// Candidates across and down, of which the best of every part are scored exactly.
+#define LATTICE 32
+#define PARTS 2
+// Then so many across and down about a candidate, at most: the cells that a step of the lattice passes over.
+#define MOST_FINE 8
+
+#define SEARCH_ARGUMENTS                                                                                                                   \
+  __global const DeviceLayout* layout, global const DeviceReceiver *receivers, global const DeviceIncoming *incoming, global const float *heights,   \
+      global float2 *slopes, global float *lack, float smoothing
+
+typedef struct {
+  global const DeviceLayout* layout;
+  global const DeviceReceiver* receivers;
+  global const float* lack;
+  Facet facet;
+  Beams now; // where its light is, which counts as taken away
+  float3 pull;
+} Search;
+
+#if NEPHROID_SMOOTHS
+static inline float neighbours_of(global const DeviceLayout* layout, int column, int row)
+{
+  return (float)((column > 0) + (column + 1 < layout->columns) + (row > 0) + (row + 1 < layout->rows));
+}
+
+// The sum of Cost_N over all facets (app/inverse/assign/cost.h) falls by n . pull where a facet of normal n is put among its neighbours:
+// their normals, times one part in the facet's neighbours and one in each neighbour's own.
+static inline float3 pull_on(global const DeviceLayout* layout, global const DeviceIncoming* incoming, global const float* heights,
+                             global const float2* slopes, uint index)
+{
+  const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
+  const float own = neighbours_of(layout, column, row);
+  float3 sum = (float3)(0.0f);
+  for (int side = 0; side < 4; ++side) {
+    const int c = column + (side == 0) - (side == 1), r = row + (side == 2) - (side == 3);
+    if (c < 0 || r < 0 || c >= layout->columns || r >= layout->rows) continue;
+    const uint other = (uint)(r * layout->columns + c);
+    const Facet facet = facet_at(layout, incoming, heights, other);
+    sum += (1.0f / own + 1.0f / neighbours_of(layout, c, r)) * facet_normal(slopes[other], layout->n, facet.sines);
+  }
+  return sum;
+}
+#endif
+
+// A lattice of slopes to points of one of the receivers, LATTICE across and down, and cells about each of them.
+typedef struct {
+  float2 corner, step, fine_step;
+  int2 fine; // cells of a step
+} Lattice;
+
+// Moved at random; another receiver every time, so that light is tried that misses those behind it.
+static inline Lattice lattice_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers, const Facet* facet, uint2 seed, uint sweep,
+                                 uint index)
+{
+  const float4 random = random4(seed, sweep, index, 0u, STREAM_FACETS);
+  const DeviceReceiver to = receivers[min((int)(random.z * (float)layout->receivers), layout->receivers - 1)];
+  const float2 size = (float2)(layout->receiver_x, layout->receiver_y);
+  const float far = to.distance + facet->height;
+  Lattice made;
+  made.step = size / (LATTICE * far);
+  made.corner = random.xy * made.step + ((float2)(to.x, to.y) - 0.5f * size - facet->middle) / far;
+  made.fine = clamp((int2)(layout->cells_x, layout->cells_y) / LATTICE, 1, MOST_FINE);
+  made.fine_step = made.step / convert_float2(made.fine);
+  return made;
+}
+
+#endif
