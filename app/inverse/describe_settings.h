@@ -100,7 +100,9 @@ inline void describe(preset::Fields& v, Receiver& r)
   v.about("InverseReceiver", "A screen across the light, and its picture.");
   v.field("distance_mm", "From the object's facets, against which it is parallel.", r.distance_mm,
           {.unit = "mm", .bounds = preset::within(0.01, 1e6), .required = true});
-  v.field("offset_mm", "Of its middle beside that of the object: to the right and up. Pictures that are beside each other fight less.",
+  v.field("offset_mm",
+          "Of its middle beside that of the object: to the right and up. Pictures that are beside each other fight less. With the method "
+          "'assign'.",
           r.offset_mm, {.unit = "mm", .bounds = preset::within(-1e6, 1e6)});
   v.field("picture", "What the object casts there: a file, or an object.", r.picture, {.required = true});
   v.field("weight", "How much its picture counts beside the others'; the costs that are reported are of all pictures alike.", r.weight,
@@ -205,7 +207,7 @@ inline void describe(preset::Fields& v, Settings& s)
   v.field("cells", "Cells of every picture, across and down.", s.cells, {.bounds = within(2, 1024)});
   v.field("frames", "How many pictures the judge takes between each receiver and the next one, as a screen that moves would show them.",
           s.frames, {.bounds = within(0, 64)});
-  v.field("tolerances", "Judges the object with errors of making and of putting it up, too; takes five times as long as to judge it.",
+  v.field("tolerances", "Judges the object with errors of making and of putting it up, too; takes five times as long again as to judge it.",
           s.tolerances);
   v.field("receivers", "The screens that light reaches, the nearest first.", s.receivers, {.count = {1, 16}});
   v.field("thesis", "Constants of the method \"thesis\".", s.thesis);

@@ -27,8 +27,9 @@ InversePlan make_plan(const preset::Preset& preset);
 /// Looks for slopes until the method gains no more, or the preset's stop; then makes the solid and judges it.
 std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context);
 
-/// Whether a run of `before` may go on as one of `now` and keep its facets' slopes: only distances, weights and pictures of as many
-/// receivers differ, or the stop; or the camera or a name. Methods other than assign begin again for all but the last two.
+/// Whether a run of `before` may go on as one of `now` and keep its facets' slopes: only what as many receivers say differs
+/// (distances, offsets, weights, pictures), or the stop; or the camera or a name. Methods other than assign begin again for all but the
+/// last two.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
 /// Where a snapshot has a receiver's figures: its distance and size, what the search believes of its picture and what the judge says.

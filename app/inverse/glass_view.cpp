@@ -68,10 +68,13 @@ preset::Object ground(const Layout& layout)
   return screen("ground", {side, side}, {0, 0, -layout.distances.back() - 0.2 * std::max(layout.size.x, layout.size.y)});
 }
 
-/// The line from a receiver's far edge to the camera passes the object's near edge where it rises by the distance over half of both.
+/// The line from a receiver's far edge to the camera passes the object's near edge where it rises by the distance over half of both and the
+/// receiver's offset.
 double elevation(const Layout& layout)
 {
-  const double free = std::atan(2 * layout.distances.front() / (layout.size.y + layout.receiver.y));
+  double free = glm::half_pi<double>();
+  for (std::size_t j = 0; j < layout.distances.size(); ++j)
+    free = std::min(free, std::atan2(layout.distances[j], (layout.size.y + layout.receiver.y) / 2 + layout.offset(j).y));
   return std::clamp(0.85 * free, glm::radians(20.0), glm::radians(50.0));
 }
 

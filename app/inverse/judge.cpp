@@ -93,8 +93,6 @@ std::vector<shared::DeviceReceiver> screens_of(const Layout& l)
   return screens;
 }
 
-bool spreads(const Layout& l) { return l.sun_radius > 0 || l.scatter > 0 || !l.spectrum.empty(); }
-
 /// As the kernel has them, each over its share of the rays.
 std::vector<shared::float4> parts_of(const Layout& l, int count)
 {
@@ -159,8 +157,8 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
 Judge::Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
              const std::vector<Target>& targets)
     : context_(context), layout_(layout), targets_(targets),
-      solid_(context, solid, spreads(layout), layout.coloured), seed_{static_cast<std::uint32_t>(seed),
-                                                                      static_cast<std::uint32_t>(seed >> 32)}
+      solid_(context, solid, layout.blurs(), layout.coloured), seed_{static_cast<std::uint32_t>(seed),
+                                                                     static_cast<std::uint32_t>(seed >> 32)}
 {
   const std::vector<shared::DeviceReceiver> screens = screens_of(layout);
   front_ = front_of(layout, screens.size());

@@ -55,6 +55,10 @@ struct Layout {
   double draft = 0;     ///< tangent of the least angle between a wall and the light straight on
   double smoothing = 0; ///< thesis (6.1): alpha_N over alpha_P
 
+  /// Beside a round object's outline.
+  bool is_beside(const glm::dvec2& p) const { return round && glm::length(p / size) > 0.5; }
+  /// Light has a width, or many wavelengths.
+  bool blurs() const { return sun_radius > 0 || scatter > 0 || !spectrum.empty(); }
   glm::dvec2 facet() const { return size / glm::dvec2(facets); }
   glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
   std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }

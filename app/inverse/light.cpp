@@ -144,7 +144,9 @@ Incoming incoming_at(const Layout& layout, const glm::dvec2& middle)
   in.sines = layout.sines;
   if (layout.lamp) in = from_lamp(layout, middle);
   const double cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
-  in.around = facet_gradient(nearest_reachable(-middle / layout.distances.back(), layout.n, in.sines, layout.steepest), layout.n, in.sines);
+  in.around = facet_gradient(nearest_reachable((layout.offset(layout.distances.size() - 1) - middle) / layout.distances.back(), layout.n,
+                                               in.sines, layout.steepest),
+                             layout.n, in.sines);
   in.power *= (1 - optics::fresnel_reflectance(cosine, 1, layout.n)) * through_front(layout, middle, in.sines);
   return in;
 }

@@ -30,8 +30,8 @@ public:
   virtual const std::vector<double>& light(std::size_t receiver) const = 0; ///< of these slopes, by their footprints
   virtual std::vector<Cost> costs() const = 0;                              ///< of that light
   virtual Solid solid() const = 0;                                          ///< whose facets have these slopes
-  /// The layout's distances or weights, or the targets, are other ones: facets keep their slopes, and the search goes on from them. Only
-  /// where adoptable() says so.
+  /// The layout's distances, offsets or weights, or the targets, are other ones: facets keep their slopes, and the search goes on from
+  /// them. Only where adoptable() says so.
   virtual void relight() {}
   /// Adds what this method alone has to tell. The job has the cost over steps and seconds.
   virtual void show(job::Snapshot&) const {}

@@ -10,6 +10,7 @@
 #include "inverse/pictures/preview.h"
 #include "inverse/pictures/target.h"
 #include "inverse/thesis/pipeline.h"
+#include "inverse/tolerances.h"
 
 #include <fmt/format.h>
 
@@ -37,7 +38,7 @@ std::uint64_t triangles_of(const Settings& s, const Layout& l)
 
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
 {
-  const bool blurred = l.sun_radius > 0 || l.scatter > 0 || !l.spectrum.empty(), straight = l.incoming.empty();
+  const bool blurred = l.blurs(), straight = l.incoming.empty();
   const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
              lens = s.method == Settings::Method::lens;
   const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
@@ -91,16 +92,19 @@ InversePlan make_plan(const preset::Preset& preset)
   plan.defines = facet_defines(l);
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
   plan.passes = passes_of(settings(preset), l);
-  plan.buffers = {
-      {"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming.size(), true},
-      {"light on the receivers (host)", 8 * sizeof(double) * l.cell_count() * l.distances.size(), true},
-      {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
-      {"a lens's fine grids (host)", settings(preset).method == Settings::Method::lens ? Lens::bytes(l) : 0, true},
-      {"light on the frames (host)", 5 * sizeof(double) * l.cell_count() * l.frames.size(), true},
-      {"the judge's light", (l.coloured ? 6 : 2) * sizeof(std::int64_t) * l.cell_count() * (l.distances.size() + l.frames.size())},
-      {"the facets and their pictures (host)", facet_bytes * l.facet_count(), true},
-      {"the solid and its tree (host)", triangle_bytes * triangles, true},
-      {"a solid with errors (host)", settings(preset).tolerances ? copied_triangle_bytes * triangles : 0, true}};
+  const std::uint64_t light_channels = l.coloured ? 6 : 2; // of even and odd rounds
+  const int cut = 2 * halvings(l);
+  const std::uint64_t with_errors = (cut > 0 ? triangle_bytes : copied_triangle_bytes) * (triangles << cut) +
+                                    light_channels * sizeof(std::int64_t) * l.cell_count() * l.distances.size();
+  plan.buffers = {{"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming.size(), true},
+                  {"light on the receivers (host)", 8 * sizeof(double) * l.cell_count() * l.distances.size(), true},
+                  {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
+                  {"a lens's fine grids (host)", settings(preset).method == Settings::Method::lens ? Lens::bytes(l) : 0, true},
+                  {"light on the frames (host)", 5 * sizeof(double) * l.cell_count() * l.frames.size(), true},
+                  {"the judge's light", light_channels * sizeof(std::int64_t) * l.cell_count() * (l.distances.size() + l.frames.size())},
+                  {"the facets and their pictures (host)", facet_bytes * l.facet_count(), true},
+                  {"the solid and its tree (host)", triangle_bytes * triangles, true},
+                  {"a solid with errors (host)", settings(preset).tolerances ? with_errors : 0, true}};
   const bool drawn_by_lens =
       settings(preset).method == Settings::Method::lens && settings(preset).receivers[0].picture.type != Picture::Type::file;
   if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)) // a lens gathers a drawing's light

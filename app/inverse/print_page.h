@@ -13,10 +13,10 @@ namespace nephroid::inverse {
 /// The object's outline, seen along the light.
 std::string object_page(const Layout& layout, const std::string& name);
 
-/// What is cast on a receiver, seen along the light, with the object's outline over it.
+/// What is cast on a receiver, seen along the light, with the object's outline over it where both have one middle.
 std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast, const std::string& name);
 
-/// The outlines of bodies on a plate, each with its name.
+/// The rectangles that bodies on a plate take, each with its name.
 std::string plate_page(const glm::dvec2& plate, const std::vector<Placed>& bodies);
 
 } // namespace nephroid::inverse

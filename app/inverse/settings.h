@@ -55,7 +55,7 @@ struct Picture {
 
 struct Receiver {
   double distance_mm = 100;              ///< from the facets
-  std::array<double, 2> offset_mm{0, 0}; ///< of its middle beside that of the object
+  std::array<double, 2> offset_mm{0, 0}; ///< of its middle beside that of the object; method assign
   Picture picture;
   double weight = 1; ///< of its squared differences beside the other receivers'
   bool operator==(const Receiver&) const = default;

@@ -57,6 +57,13 @@ Solid halved(const Solid& solid)
 
 } // namespace
 
+int halvings(const Layout& layout)
+{
+  constexpr double least_a_wave = 4; // triangles' sides
+  const double sides = std::max(layout.facet().x, layout.facet().y) / (wave_mm / least_a_wave);
+  return std::max(0, static_cast<int>(std::ceil(std::log2(sides))));
+}
+
 Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t seed)
 {
   constexpr int count = 32;
@@ -66,8 +73,7 @@ Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t
     const double side = 2 * glm::pi<double>() * uniform(random), k = 2 * glm::pi<double>() / wave_mm;
     wave = {k * std::cos(side), k * std::sin(side), 2 * glm::pi<double>() * uniform(random)};
   }
-  constexpr double least_a_wave = 4; // triangles' sides
-  for (double side = std::max(layout.facet().x, layout.facet().y); side > wave_mm / least_a_wave; side /= 2) solid = halved(solid);
+  for (int i = 0; i < halvings(layout); ++i) solid = halved(solid);
   const double amplitude = rms_mm * std::sqrt(2.0 / count);
   for (glm::vec3& p : solid.mesh.positions) {
     if (p.z >= static_cast<float>(layout.thickness)) continue;

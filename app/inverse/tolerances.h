@@ -48,6 +48,9 @@ private:
 /// Length of the waves on the surface: of what machines leave, waviness is 0.8 to 8 mm long.
 inline constexpr double wave_mm = 5;
 
+/// How often each triangle is cut into four where facets are wide beside such waves.
+int halvings(const Layout& layout);
+
 /// Its surface but the flat front is off along z, in waves of this root mean square. Triangles that are too wide for waves are cut.
 Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t seed);
 

@@ -156,9 +156,9 @@ static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprin
   const int4 box = cells_of(layout, print);
   for (int y = box.y; y < box.w; ++y)
     for (int x = box.x; x < box.z; ++x) {
-    const size_t cell = cell_at(layout, receiver, x, y);
-    lack[cell] = lack_of(light[cell], wanted[cell], weight);
-  }
+      const size_t cell = cell_at(layout, receiver, x, y);
+      lack[cell] = lack_of(light[cell], wanted[cell], weight);
+    }
 }
 
 // Facets that hold all that they claimed have their cells to themselves. They take what they found if it is better still.

@@ -24,7 +24,7 @@
 #define STREAM_BAKE 48u                  // environment/bake.cl: pass is the direction, index the photon
 #define STREAM_SEE 49u                   // environment/see.cl, here and below: index is the pixel
 #define STREAM_SEE_WAVELENGTH 50u        // where a pixel starts in the spectrum
-#define STREAM_FACETS 64u                // inverse/propose.cl: pass is the sweep, index the facet
+#define STREAM_FACETS 64u                // inverse/search.h: pass is the sweep, index the facet
 #define STREAM_JUDGE 65u                 // inverse/judge.cl: pass is the ray of a facet, index the facet
 
 static inline uint4 philox4x32(uint4 counter, uint2 key)

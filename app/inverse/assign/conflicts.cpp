@@ -40,7 +40,7 @@ std::vector<double> ConflictSearch::of_facets() const
   std::vector<double> most(slopes_.size());
   for_ranges(most.size(), 256, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      for (std::size_t j = 0; j < light_.size(); ++j) most[i] = std::max(most[i], misplaced(i, j));
+      for (std::size_t j = 0; j < light_.size() && !layout_.is_beside(layout_.middle(i)); ++j) most[i] = std::max(most[i], misplaced(i, j));
   });
   return most;
 }

@@ -5,7 +5,6 @@
 #include "inverse/bending.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace nephroid::inverse {
@@ -50,10 +49,6 @@ std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& ta
     for (const double t : target) wanted.push_back(static_cast<float>(t * static_cast<double>(layout.facet_count())));
   return wanted;
 }
-
-} // namespace
-
-namespace {
 
 std::size_t rimmed_cells(const Layout& l)
 {
@@ -148,9 +143,8 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
 
 compute::Defines facet_defines(const Layout& layout)
 {
-  const bool spreads = layout.sun_radius > 0 || layout.scatter > 0 || !layout.spectrum.empty();
   return {{"NEPHROID_INCOMING", layout.incoming.empty() ? "0" : "1"},
-          {"NEPHROID_SPREAD", spreads ? "1" : "0"},
+          {"NEPHROID_SPREAD", layout.blurs() ? "1" : "0"},
           {"NEPHROID_SMOOTHS", layout.smoothing > 0 ? "1" : "0"}};
 }
 

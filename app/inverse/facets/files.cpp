@@ -154,7 +154,7 @@ image::Image height_map(const Layout& layout, const Solid& solid)
       const Facet& f = solid.facets[facet];
       const glm::dvec2 beside = glm::dvec2(from_middle(x), -from_middle(y)) * pixel;
       const glm::dvec2 p = layout.middle(facet) + beside;
-      if (layout.round && glm::length(p / layout.size) > 0.5) {
+      if (layout.is_beside(p)) {
         map.data.push_back(0);
         continue;
       }

@@ -146,7 +146,7 @@ private:
   void make_front(std::vector<std::uint32_t> ring)
   {
     const auto x_of = [&](std::uint32_t id) { return mesh_.positions[id].x; };
-    std::ranges::rotate(ring, std::ranges::min_element(ring, {}, x_of)); // clockwise from the left: the upper half first
+    std::rotate(ring.begin(), std::ranges::min_element(ring, {}, x_of), ring.end()); // clockwise from the left: the upper half first
     const auto right = std::ranges::max_element(ring, {}, x_of);
     const std::vector<std::uint32_t> upper(ring.begin(), right + 1);
     std::vector<std::uint32_t> lower(ring.rbegin(), std::make_reverse_iterator(right));

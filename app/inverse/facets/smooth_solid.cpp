@@ -227,8 +227,9 @@ Layout mesh_layout(Layout layout)
   constexpr int most = 4096; // across and down
   const glm::dvec2 facet = layout.facet();
   for (const int axis : {0, 1}) {
-    const double times = std::min(std::round(facet[axis] / facet[1 - axis]), static_cast<double>(most / layout.facets[axis]));
-    layout.facets[axis] *= std::max(1, static_cast<int>(times));
+    const int times = most / layout.facets[axis];
+    layout.facets[axis] *=
+        static_cast<int>(std::clamp(std::round(facet[axis] / facet[1 - axis]), 1.0, std::max(1.0, static_cast<double>(times))));
   }
   return layout;
 }

@@ -88,6 +88,7 @@ Valley tightest_valley(const Layout& layout, const Surface& surface)
   constexpr double flat = 1e-6; // of a curvature in 1 / mm
   Valley tightest;
   for (std::size_t i = 0; i < layout.facet_count(); ++i) {
+    if (layout.is_beside(layout.middle(i))) continue;
     const Surface::At at = surface.at(layout.middle(i));
     // Principal curvatures are the eigenvalues of the second fundamental form over the first; -z is up.
     const double length2 = 1 + glm::dot(at.gradient, at.gradient);

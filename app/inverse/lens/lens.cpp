@@ -254,7 +254,7 @@ void Lens::correct()
   const glm::dvec2 cell = domain_ / glm::dvec2(wanted_.cols(), wanted_.rows()), cells(wanted_.cols(), wanted_.rows());
   set_heights(bent([&](const glm::dvec2& p, const Surface::At& at) {
     const glm::dvec2 to = landing(p, at);
-    if (layout_.round && glm::length(p / layout_.size) > 0.5) return to; // there is no light to move
+    if (layout_.is_beside(p)) return to; // there is no light to move
     const glm::dvec2 on_grid = glm::clamp(glm::dvec2(to.x + domain_.x / 2, domain_.y / 2 - to.y) / cell - 0.5, glm::dvec2(0), cells - 1.0);
     const glm::dvec2 move = flow.at(on_grid).gradient * (share_ / std::max(least, amount.at(on_grid).value));
     return to + move * cell * glm::dvec2(1, -1);

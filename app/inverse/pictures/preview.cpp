@@ -225,8 +225,10 @@ std::vector<std::string> workshop_notes(const Settings& settings, const Layout& 
   constexpr double much_light = 0.02, few_layers = 4;
   if (settings.method == Settings::Method::lens) return {};
   std::vector<std::string> notes;
-  // A facet like many: it sends light a quarter of the nearest receiver aside. Its walls are about as high as it rises.
-  const double slope = std::min(glm::length(layout.receiver) / std::sqrt(2.0) / 4 / layout.distances.front(), usable_slope(layout)),
+  // A facet like many: it sends light a quarter of the nearest receiver beside that one's middle. Its walls are about as high as it rises.
+  const double slope = std::min(std::hypot(glm::length(layout.receiver) / std::sqrt(2.0) / 4, glm::length(layout.offset(0))) /
+                                    layout.distances.front(),
+                                usable_slope(layout)),
                steepness = glm::length(facet_gradient({slope, 0}, layout.n)), rise = steepness * layout.facet().x,
                walls = layout.free_heights ? 1.0 / 3 : 1; // of that height, measured
   // Four walls; to each the facet gives half of the wall's height times the draft's tangent.
@@ -235,9 +237,10 @@ std::vector<std::string> workshop_notes(const Settings& settings, const Layout& 
                                 "receivers further away, a smaller draft_deg or free heights",
                                 settings.draft_deg, 100 * light));
   if (settings.layer_mm && rise < few_layers * *settings.layer_mm)
-    notes.push_back(fmt::format("a facet that sends light a quarter of receiver 1 aside rises by {:.2g} mm, {:.2g} layers of {} mm; choose "
-                                "thinner layers or fewer facets",
-                                rise, rise / *settings.layer_mm, *settings.layer_mm));
+    notes.push_back(
+        fmt::format("a facet that sends light a quarter of receiver 1 beside its middle rises by {:.2g} mm, {:.2g} layers of {} mm; choose "
+                    "thinner layers or fewer facets",
+                    rise, rise / *settings.layer_mm, *settings.layer_mm));
   return notes;
 }
 
