@@ -92,9 +92,9 @@ public:
       add_frames(snapshot);
       if (!method_->finished() && !had_all_steps())
         snapshot.warnings.push_back(
-            fmt::format("stop.seconds ended the search in {} {}, to leave time for the judge; with more seconds the "
+            fmt::format("stop.seconds ended the search after {} {}, to leave time for the judge; with more seconds the "
                         "pictures become better",
-                        method_->units().step, method_->steps() + 1));
+                        method_->units().step, method_->steps()));
     }
     return snapshot;
   }
@@ -153,7 +153,7 @@ private:
   bool found()
   {
     if (method_->finished() || had_all_steps()) return true;
-    if (!preset_.stop.seconds) return false;
+    if (!preset_.stop.seconds || method_->steps() == began_.steps) return false; // what is judged has had one step at least
     if (!judge_needs_)
       judge_needs_ = judge_seconds(context_, layout_, triangles_) * (settings(preset_).tolerances ? 1 + Tolerances::count : 1);
     return looked_for() + (method_->part() == 0 ? last_step_seconds() : 0) >= search_seconds();

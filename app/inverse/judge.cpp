@@ -88,7 +88,7 @@ std::vector<shared::DeviceReceiver> screens_of(const Layout& l)
   for (std::size_t j = 0; j < l.distances.size(); ++j) add(l.distances[j], l.offset(j));
   for (std::size_t k = 0; k < l.frames.size(); ++k) {
     const std::size_t each = l.frames.size() / (l.distances.size() - 1), j = k / each;
-    add(l.frames[k], glm::mix(l.offset(j), l.offset(j + 1), (l.frames[k] - l.distances[j]) / (l.distances[j + 1] - l.distances[j])));
+    add(l.frames[k], glm::mix(l.offset(j), l.offset(j + 1), static_cast<double>(k % each + 1) / static_cast<double>(each + 1)));
   }
   return screens;
 }

@@ -202,12 +202,13 @@ void check_reach(const Layout& layout, const std::vector<Target>& targets, const
     if (turn(place, distance) <= limit) continue;
     double far = distance;
     while (far < 1e7 && turn(place, far) > limit) far *= 1.01;
-    throw bad_input(Place(preset.source) / "inverse" / "receivers" / j / "distance_mm",
-                    fmt::format("light must reach ({:.4g}, {:.4g}) mm over {:.4g} mm, a turn by a slope of {:.3g}", place.x, place.y,
-                                distance, turn(place, distance)),
-                    fmt::format("{} {:.3g} at most", limits, limit),
-                    far < 1e7 ? fmt::format("choose a distance of at least {:.4g} mm, a larger object or a smaller receiver_mm", far)
-                              : "choose an index farther from 1, or light that is tilted less");
+    throw bad_input(
+        Place(preset.source) / "inverse" / "receivers" / j / "distance_mm",
+        fmt::format("light must reach ({:.4g}, {:.4g}) mm over {:.4g} mm, a turn by a slope of {:.3g}", place.x, place.y, distance,
+                    turn(place, distance)),
+        fmt::format("{} {:.3g} at most", limits, limit),
+        far < 1e7 ? fmt::format("choose a distance of at least {:.4g} mm, a larger object, or a smaller receiver_mm or offset_mm", far)
+                  : "choose an index farther from 1, or light that is tilted less");
   }
 }
 

@@ -94,7 +94,8 @@ std::string receiver_page(const Layout& layout, std::size_t receiver, const job:
                            layout.receiver.x, layout.receiver.y, layout.distances[receiver]),
                offset == glm::dvec2(0)
                    ? "(red: the object)"
-                   : fmt::format("its middle: {:.6g} mm to the right and {:.6g} mm above that of the object", offset.x, offset.y)) +
+                   : fmt::format("its middle: {:.6g} mm {} and {:.6g} mm {} that of the object", std::abs(offset.x),
+                                 offset.x < 0 ? "to the left" : "to the right", std::abs(offset.y), offset.y < 0 ? "below" : "above")) +
          fmt::format("<image x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" preserveAspectRatio=\"none\" "
                      "style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n",
                      corner.x, corner.y, layout.receiver.x, layout.receiver.y, base64(image::png(cast.width, cast.height, cast.rgb))) +

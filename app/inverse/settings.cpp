@@ -52,10 +52,14 @@ void check_receivers(const Settings& s, const std::string& pointer, const Where&
                       "expected [0, 0]", "or choose the method 'assign'");
     if (j == 0) continue;
     const double before = s.receivers[j - 1].distance_mm, now = s.receivers[j].distance_mm;
-    if (now <= before)
+    if (now < before)
       throw bad_input(where(preset::child(at, "distance_mm")),
                       fmt::format("is {} mm, and the receiver before stands at {} mm", now, before),
-                      "expected receivers in the order of their distance, each at its own", "sort them, the nearest first");
+                      "expected receivers in the order of their distance", "sort them, the nearest first");
+    if (now == before && s.receivers[j].offset_mm == s.receivers[j - 1].offset_mm)
+      throw bad_input(where(preset::child(at, "distance_mm")),
+                      fmt::format("is {} mm, and the receiver before stands at the same place", now), "expected each at its own",
+                      "choose another distance_mm or offset_mm");
   }
 }
 

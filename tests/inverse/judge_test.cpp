@@ -53,7 +53,8 @@ TEST(Judge, FindsAFacetsSpotToAHundredthOfAMillimetre)
 // A beam of slope s is at s d on a screen at d, a receiver or not. Screens between two receivers stand on the line between these.
 TEST(Judge, LooksBetweenReceiversToo)
 {
-  Layout layout{.size = {1, 1}, .facets = {1, 1}, .receiver = {80, 80}, .cells = {80, 80}, .distances = {100, 200}, .frames = {130, 170}};
+  Layout layout{
+      .size = {1, 1}, .facets = {1, 1}, .receiver = {80, 80}, .cells = {80, 80}, .distances = {100, 200}, .frames = {400.0 / 3, 500.0 / 3}};
   layout.offsets = {{-10, 5}, {20, 15}};
   const glm::dvec2 slope{0.15, 0.1};
   const Solid solid = make_solid(layout, {slope});
