@@ -61,6 +61,36 @@ preset::Object receiver_at(const Layout& layout, std::size_t receiver)
   return quad;
 }
 
+/// Half of the rectangle about the object's middle, in the plane of its front, through which light comes straight to a receiver.
+glm::dvec2 half_lit(const Layout& layout, const glm::dvec3& falls)
+{
+  glm::dvec2 half(0);
+  for (std::size_t j = 0; j < layout.distances.size(); ++j)
+    half = glm::max(half, glm::abs(layout.offset(j) + glm::dvec2(falls) / falls.z * (layout.distances[j] + layout.thickness)) +
+                              layout.receiver / 2.0);
+  return half;
+}
+
+/// Four dark strips around the object, as a screen with a hole for it, that stop what would pass it and reach a receiver; none where
+/// nothing would.
+std::vector<preset::Object> mask(const Layout& layout, std::size_t receiver, const glm::dvec3& falls)
+{
+  const glm::dvec2 inner = layout.size / 2.0, wanted = glm::max(half_lit(layout, falls), inner),
+                   outer(std::min(wanted.x, spacing(layout) / 2), wanted.y);
+  std::vector<preset::Object> strips;
+  for (const int axis : {0, 1})
+    for (const int side : {-1, 1}) {
+      glm::dvec2 size, middle(0);
+      size[axis] = outer[axis] - inner[axis];
+      size[1 - axis] = 2 * (axis == 0 ? outer : inner)[1 - axis];
+      middle[axis] = side * (inner[axis] + size[axis] / 2);
+      if (!(size[axis] > 1e-6 * inner[axis])) continue;
+      strips.push_back(screen("ground", size, glm::dvec3(column(layout, receiver), 0, layout.thickness) + glm::dvec3(middle, 0)));
+      strips.back().name = fmt::format("mask {} over receiver {}", strips.size(), receiver + 1);
+    }
+  return strips;
+}
+
 /// Dark, and much larger than what stands over it: what glass is seen against.
 preset::Object ground(const Layout& layout)
 {
@@ -68,19 +98,20 @@ preset::Object ground(const Layout& layout)
   return screen("ground", {side, side}, {0, 0, -layout.distances.back() - 0.2 * std::max(layout.size.x, layout.size.y)});
 }
 
-/// The line from a receiver's far edge to the camera passes the object's near edge where it rises by the distance over half of both and the
-/// receiver's offset.
-double elevation(const Layout& layout)
+/// The line from a receiver's far edge to the camera passes the mask's near edge, or the object's, where it rises by the distance over half
+/// of both and the receiver's offset.
+double elevation(const Layout& layout, const glm::dvec3& falls)
 {
+  const double near = std::max(layout.size.y / 2, half_lit(layout, falls).y);
   double free = glm::half_pi<double>();
   for (std::size_t j = 0; j < layout.distances.size(); ++j)
-    free = std::min(free, std::atan2(layout.distances[j], (layout.size.y + layout.receiver.y) / 2 + layout.offset(j).y));
+    free = std::min(free, std::atan2(layout.distances[j], near + layout.receiver.y / 2 + layout.offset(j).y));
   return std::clamp(0.85 * free, glm::radians(20.0), glm::radians(50.0));
 }
 
-preset::Camera camera(const Layout& layout)
+preset::Camera camera(const Layout& layout, const glm::dvec3& falls)
 {
-  const double up = elevation(layout), last = layout.distances.back(), count = static_cast<double>(layout.distances.size());
+  const double up = elevation(layout, falls), last = layout.distances.back(), count = static_cast<double>(layout.distances.size());
   const double wide = (count - 1) * spacing(layout) + 2 * layout.half_room().x;
   const double high = (last + layout.thickness) * std::cos(up) + 2 * layout.half_room().y * std::sin(up);
   const double deep = (last + layout.thickness) * std::sin(up) + 2 * layout.half_room().y * std::cos(up);
@@ -123,7 +154,7 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   view.white = irradiance * -falls.z * luminous_part * reflectance / glm::pi<double>() * brightest;
   view.stop.seconds = 60;
   preset::Scene& scene = view.scene;
-  scene.camera = camera(layout);
+  scene.camera = camera(layout, falls);
   scene.materials["glass"].type = preset::Material::Type::dielectric;
   if (layout.coloured)
     scene.materials["glass"].dispersion = dispersion_of(preset);
@@ -135,6 +166,7 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   for (std::size_t j = 0; j < layout.distances.size(); ++j) {
     scene.objects.push_back(receiver_at(layout, j));
     scene.objects.push_back(object_over(layout, j));
+    for (preset::Object& strip : mask(layout, j, falls)) scene.objects.push_back(std::move(strip));
   }
   preset::Light sun;
   sun.type = preset::Light::Type::directional;
