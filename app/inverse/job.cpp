@@ -252,7 +252,7 @@ private:
       snapshot.pictures.push_back({fmt::format("best_{}", j + 1), grey_picture(best_[j], 1 / brightest(j), layout_.cells)});
     }
     snapshot.pictures.push_back({"slopes", slopes_picture(method_->slopes(), method_->heights(), layout_)});
-    snapshot.picture = sheet(columns, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
+    snapshot.picture = sheet(columns, layout_.receiver, preset_.scene.camera.resolution[0], preset_.scene.camera.resolution[1]);
     if (!std::exchange(conflict_known_, true)) find_conflicts();
     snapshot.pictures.push_back({"conflict", conflict_});
     snapshot.in_view = object_picture(columns);

@@ -29,7 +29,7 @@ struct SlotGrid {
   glm::ivec2 corner(const glm::ivec2& at) const { return at * slot + (slot - size - glm::ivec2(0, line)) / 2; }
 };
 
-SlotGrid grid_of(const glm::ivec2& counts, const glm::ivec2& shape, const glm::ivec2& sheet)
+SlotGrid grid_of(const glm::ivec2& counts, const glm::dvec2& shape, const glm::ivec2& sheet)
 {
   constexpr int least_line = 12, least_slot = 80; // pixels in which words can be read
   SlotGrid grid{counts, sheet / counts, {}};
@@ -37,7 +37,7 @@ SlotGrid grid_of(const glm::ivec2& counts, const glm::ivec2& shape, const glm::i
   if (const int line = std::clamp(grid.slot.y / 12, least_line, 28); grid.slot.x >= least_slot && grid.slot.y >= 4 * line) grid.line = line;
   const glm::dvec2 room = glm::dvec2(grid.slot - gap) - glm::dvec2(0, grid.line);
   const double scale = std::max(0.0, std::min(room.x / shape.x, room.y / shape.y));
-  grid.size = glm::ivec2(scale * glm::dvec2(shape));
+  grid.size = glm::ivec2(scale * shape);
   return grid;
 }
 
@@ -119,13 +119,12 @@ std::shared_ptr<const job::Picture> slopes_picture(std::span<const glm::dvec2> s
   return picture;
 }
 
-std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, int width, int height)
+std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, const glm::dvec2& shape, int width, int height)
 {
   auto picture = std::make_shared<job::Picture>();
   picture->width = width;
   picture->height = height;
   picture->rgb.assign(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.02f); // a grey that parts black pictures
-  const glm::ivec2 shape(lists.front().front().picture->width, lists.front().front().picture->height);
   const glm::ivec2 counts(lists.size(), lists.front().size());
   const auto grid_with = [&](int across, int down) { return grid_of({across, down}, shape, {width, height}); };
   const SlotGrid upright = grid_with(counts.x, counts.y), lying = grid_with(counts.y, counts.x);

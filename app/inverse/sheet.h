@@ -27,8 +27,9 @@ struct Captioned {
   std::string words;
 };
 
-/// All in one picture of this size: a column for each of the lists, or a row, whichever has larger pictures; one list alone may stand in
-/// two columns. Words that would be too small to read are left out, and all of them where there is no font.
-std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, int width, int height);
+/// All in one picture of this size, each in the shape of a receiver: a column for each of the lists, or a row, whichever has larger
+/// pictures; one list alone may stand in two columns. Words that would be too small to read are left out, and all of them where there is no
+/// font.
+std::shared_ptr<const job::Picture> sheet(const std::vector<std::vector<Captioned>>& lists, const glm::dvec2& shape, int width, int height);
 
 } // namespace nephroid::inverse

@@ -47,7 +47,7 @@ void show_pictures(const PicturesOptions& options)
   for (const std::string& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
   if (options.picture.empty()) return;
   const auto [width, height] = preset.scene.camera.resolution;
-  image::write_png(options.picture, width, height, sheet(columns, width, height)->rgb);
+  image::write_png(options.picture, width, height, sheet(columns, plan.layout.receiver, width, height)->rgb);
 }
 
 } // namespace
