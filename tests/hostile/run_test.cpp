@@ -29,7 +29,7 @@ TEST_F(Runs, LeaveEveryFileOfTheContract)
   const Ended ended = run("a", {"--passes", "3"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(ended.err, "") << "short runs and finished ones are quiet";
-  EXPECT_THAT(ended.out, HasSubstr(file("a", "image.png").string() + ": 3 passes, 0.1 million photons"));
+  EXPECT_THAT(ended.out, HasSubstr(file("a", "image.png").string() + ": 3 passes, 60000 photons"));
 
   const auto image = nephroid::image::read_image(file("a", "image.exr"));
   EXPECT_EQ(image.width, 48);
