@@ -44,8 +44,9 @@ void make_plate(const PlateOptions& options)
     const fs::path file = fs::is_directory(run) ? run / "object.ply" : run; // as exact as the STL, and read faster
     if (!is_there(file))
       throw bad_input(file.string(), "is not there", "expected the folder of a finished run of the engine 'inverse', or a mesh");
-    if (fs::weakly_canonical(options.output).parent_path() == fs::weakly_canonical(file).parent_path())
-      throw bad_input(options.output.string(), "lies in the folder of a run or mesh that goes onto the plate", "expected another folder");
+    const fs::path output = fs::weakly_canonical(fs::absolute(options.output)), taken = fs::weakly_canonical(fs::absolute(run));
+    if (output == taken || output.parent_path() == taken)
+      throw bad_input(options.output.string(), "would overwrite what goes onto the plate", "expected a file beside its runs and meshes");
     meshes.push_back(scene::load_mesh(file));
     bodies.push_back(body_of(run, meshes.back()));
     triangles += meshes.back().triangles.size();
