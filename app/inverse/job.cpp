@@ -145,12 +145,12 @@ private:
     if (state.is_read()) begin_judging();
     judge_->state(state);
     if (tolerances_) tolerances_->state(state);
-    if (!state.is_read() || found()) return;
+    if (!state.is_read() || search_is_over()) return;
     conflict_known_ = false;
     stop_judging();
   }
 
-  bool found()
+  bool search_is_over()
   {
     if (method_->finished() || had_all_steps()) return true;
     if (!preset_.stop.seconds || method_->steps() == began_.steps) return false; // what is judged has had one step at least
@@ -163,7 +163,7 @@ private:
 
   double looked_for() const { return method_seconds_ - began_.seconds; }
 
-  /// Of the stop's seconds, what the judge leaves; once found() has asked how long it takes.
+  /// Of the stop's seconds, what the judge leaves; once search_is_over() has asked how long it takes.
   double search_seconds() const { return *preset_.stop.seconds - judge_needs_.value_or(0); }
 
   /// A step is not begun where it would not end in time; 0 before the first.
@@ -186,7 +186,7 @@ private:
       judge_->advance();
     else if (judge_)
       tolerances_->advance();
-    else if (found())
+    else if (search_is_over())
       begin_judging();
     else {
       const std::int64_t before = method_->steps();
