@@ -296,11 +296,11 @@ TEST(Conflicts, BlameNoThird)
   found.layout.distances = {100, 130, 200};
   found.light.assign(3, std::vector<double>(256));
   for (std::size_t i = 0; i < found.slopes.size(); ++i) add_light(found.layout, i, found.slopes[i], 1, found.light);
-  const double all = std::accumulate(found.light[1].begin(), found.light[1].end(), 0.0);
+  const double received = std::accumulate(found.light[1].begin(), found.light[1].end(), 0.0);
   found.targets.insert(found.targets.begin() + 1, found.light[1]);
-  for (double& t : found.targets[1]) t /= all;
+  for (double& t : found.targets[1]) t /= received;
   const Conflicts c = found.search().of_pictures();
-  EXPECT_NEAR(c.misplaced[1], 1 - all / inverse::light_sent(found.layout, found.slopes), 1e-6); // what is beside the receiver
+  EXPECT_NEAR(c.misplaced[1], 1 - received / inverse::light_sent(found.layout, found.slopes), 1e-6); // what is beside the receiver
   EXPECT_GT(fight(c, 0, 2), 0.8);
   EXPECT_LT(fight(c, 0, 1), 0.1 * fight(c, 0, 2));
   EXPECT_LT(fight(c, 1, 2), 0.1 * fight(c, 0, 2));

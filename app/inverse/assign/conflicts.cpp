@@ -17,10 +17,10 @@ ConflictSearch::ConflictSearch(const Layout& layout, const std::vector<Target>& 
     : layout_(layout), slopes_(slopes), heights_(heights), light_(light), wanted_(targets), too_much_(light)
 {
   for (std::size_t j = 0; j < light.size(); ++j) {
-    const double all = std::accumulate(light[j].begin(), light[j].end(), 0.0);
+    const double received = std::accumulate(light[j].begin(), light[j].end(), 0.0);
     for (std::size_t c = 0; c < light[j].size(); ++c) {
-      too_much_[j][c] = light[j][c] > 0 ? std::max(0.0, 1 - all * targets[j][c] / light[j][c]) : 0;
-      wanted_[j][c] *= all / static_cast<double>(layout.facet_count());
+      too_much_[j][c] = light[j][c] > 0 ? std::max(0.0, 1 - received * targets[j][c] / light[j][c]) : 0;
+      wanted_[j][c] *= received / static_cast<double>(layout.facet_count());
     }
   }
   weights_ = picture_weights(layout, wanted_);
