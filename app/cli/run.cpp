@@ -8,11 +8,14 @@
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "report/data.h"
+#include "team/team.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 namespace nephroid::cli {
 namespace fs = std::filesystem;
@@ -83,32 +86,71 @@ void fit_white(const RunOptions& options, Target& target, const std::stop_token&
       shared.prepared = run::prepare(first, shared.prepared ? &*shared.prepared : nullptr, {interrupted, {}});
       shared.white = run::fitted_white(*shared.prepared, device_of(options, shared), {interrupted, {}});
     });
-    fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
+    if (!shared.ranks || shared.ranks->rank() == 0) fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
   }
   target.preset.white = *shared.white;
 }
 
-void run_preset(const RunOptions& options)
+void run_one(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared)
 {
-  const Interrupts interrupts; // before OpenCL starts its threads
-  std::vector<Target> targets = targets_of(options);
-  Shared shared;
+  fit_white(options, target, interrupted, shared);
+  if (target.preset.animation) return render_animation(options, target, interrupted, shared);
+  if (!options.frames.empty()) throw bad_input("--frames", "the preset has no animation", "expected one with the section 'animation'");
+  if (const auto done = options.resume ? run::finished_run(target.folder, target.preset) : std::nullopt) {
+    if (!done->changed.empty())
+      throw bad_input(target.folder, "this run is finished, but " + done->changed, {}, "run without --resume to start over");
+    if (shared.ranks && shared.ranks->rank() != 0) return;
+    fmt::print(stderr, "{}: this run is finished\n", target.label);
+    return report_result(options, target, done->progress, true);
+  }
+  preset::at_origins(target.preset, [&] { render(options, target, interrupted, shared); });
+}
+
+void run_all(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared)
+{
   for (Target& target : targets) {
     if (&target != &targets.front()) write_order(targets);
-    fit_white(options, target, interrupts.token(), shared);
-    if (target.preset.animation) {
-      render_animation(options, target, interrupts.token(), shared);
-      continue;
-    }
-    if (!options.frames.empty()) throw bad_input("--frames", "the preset has no animation", "expected one with the section 'animation'");
-    if (const auto done = options.resume ? run::finished_run(target.folder, target.preset) : std::nullopt) {
-      if (!done->changed.empty())
-        throw bad_input(target.folder, "this run is finished, but " + done->changed, {}, "run without --resume to start over");
-      fmt::print(stderr, "{}: this run is finished\n", target.label);
-      report_result(options, target, done->progress, true);
-      continue;
-    }
-    preset::at_origins(target.preset, [&] { render(options, target, interrupts.token(), shared); });
+    run_one(options, target, interrupted, shared);
+  }
+}
+
+/// Of a sweep each rank does the next run, alone, whenever it is free.
+void deal_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared, team::Ranks& ranks)
+{
+  for (Target& target : targets) fit_white(options, target, interrupted, shared);
+  require_same(options, targets.front().preset, interrupted, shared, ranks);
+  const bool leads = ranks.rank() == 0;
+  const fs::path folder = targets.front().folder.parent_path();
+  if (leads) {
+    fs::create_directories(folder);
+    write_order(targets);
+  }
+  require_shared(ranks, folder / report::sweep_file);
+  ranks.deal(static_cast<std::int64_t>(targets.size()),
+             [&](std::int64_t number) { run_one(options, targets[static_cast<std::size_t>(number)], interrupted, shared); });
+}
+
+void run_preset(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<team::Ranks>& ranks)
+{
+  std::vector<Target> targets = targets_of(options);
+  Shared shared;
+  if (!ranks) return run_all(options, targets, interrupted, shared);
+  shared.device_of_several = ranks->number_on_host();
+  if (targets.size() > 1) return deal_runs(options, targets, interrupted, shared, *ranks);
+  shared.ranks = ranks;
+  run_one(options, targets.front(), interrupted, shared);
+}
+
+/// Where one rank fails all end. What is wrong with the command rank 0 says for all of them.
+void run_on_ranks(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<team::Ranks>& ranks)
+{
+  try {
+    run_preset(options, interrupted, ranks);
+  } catch (const Error& error) {
+    const bool leads = ranks->rank() == 0;
+    if (!leads) std::this_thread::sleep_for(std::chrono::seconds(1));
+    fmt::print(stderr, "nephroid: {}{}\n", leads || error.place() == Place(ranks->name()) ? "" : ranks->name() + ": ", error.line());
+    ranks->abort(error.exit_code());
   }
 }
 
@@ -157,7 +199,11 @@ void add_run(CLI::App& program, Session&)
   verb.flag("--json", options->json, "Progress and result as JSON lines on standard output");
   verb.work([options] {
     put_in_order(options->pictures_at);
-    run_preset(*options);
+    const Interrupts interrupts; // before OpenCL starts its threads
+    if (const std::shared_ptr<team::Ranks> ranks = team::open_ranks())
+      run_on_ranks(*options, interrupts.token(), ranks);
+    else
+      run_preset(*options, interrupts.token(), nullptr);
   });
 }
 

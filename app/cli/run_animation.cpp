@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <memory>
+#include <utility>
 
 namespace nephroid::cli {
 namespace {
@@ -35,7 +37,7 @@ class Frames {
 public:
   Frames(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared)
       : options_(options), target_(target), interrupted_(interrupted), shared_(shared), animation_(target.preset.animation.value()),
-        range_(frames_of(options.frames, animation_.frames))
+        ranks_(std::exchange(shared.ranks, nullptr)), range_(frames_of(options.frames, animation_.frames))
   {
   }
 
@@ -44,11 +46,27 @@ public:
     for (int frame = range_.first; frame <= range_.second; ++frame)
       preset::at_frame(target_.preset, frame); // what cannot be is said at once
     begin();
-    for (int frame = range_.first; frame <= range_.second; ++frame) render_one(frame);
-    end();
+    if (ranks_)
+      deal_frames();
+    else
+      for (int frame = range_.first; frame <= range_.second; ++frame) render_one(frame);
+    if (leads()) end();
   }
 
 private:
+  bool leads() const { return !ranks_ || ranks_->rank() == 0; }
+
+  /// Each rank renders the next one, alone, whenever it is free.
+  void deal_frames()
+  {
+    require_same(options_, target_.preset, interrupted_, shared_, *ranks_);
+    require_shared(*ranks_, target_.folder / "preset.json");
+    ranks_->deal(range_.second - range_.first + 1, [&](std::int64_t number) { render_one(range_.first + static_cast<int>(number)); });
+    std::int64_t rendered = rendered_;
+    ranks_->add({&rendered, 1});
+    rendered_ = static_cast<int>(rendered);
+  }
+
   /// The folder is of the animation as a whole: its preset, and the plan of frame 0.
   void begin()
   {
@@ -56,6 +74,7 @@ private:
       shared_.prepared = run::prepare(target_.preset, shared_.prepared ? &*shared_.prepared : nullptr, {interrupted_, {}});
       run::require_memory(*shared_.prepared, device_of(options_, shared_)); // what cannot be leaves no folder
     });
+    if (!leads()) return;
     run::claim_folder(target_.folder);
     if (options_.resume || !options_.frames.empty()) {
       run::remove_frames(target_.folder, animation_.frames);
@@ -113,6 +132,7 @@ private:
   std::stop_token interrupted_;
   Shared& shared_;
   const preset::Animation& animation_;
+  std::shared_ptr<team::Ranks> ranks_; ///< null: this process alone renders all frames
   std::pair<int, int> range_;
   int rendered_ = 0;
 };

@@ -3,9 +3,11 @@
 
 #include "base/counted.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "base/json_output.h"
 #include "cli/progress.h"
 #include "engine/engine.h"
+#include "job/led_job.h"
 #include "run/run.h"
 
 #include <fmt/format.h>
@@ -40,6 +42,11 @@ std::string where_time_went(const job::Snapshot& snapshot)
   return fmt::format("{:.1f} s of work{}", snapshot.progress.work_seconds, phases);
 }
 
+void require_same(team::Ranks& ranks, const run::Prepared& prepared, const compute::Context& context)
+{
+  for (const auto& [what, mine] : run::what_bits_hang_on(prepared, context)) team::require_same(ranks, what, mine);
+}
+
 /// Renders one target on a device that is open for all of them.
 class Run {
 public:
@@ -53,20 +60,28 @@ public:
     const Watch watch{interrupted_, [this](const std::string& doing) {
                         if (progress_style(options_.json) == ProgressStyle::live) activity_.show(target_.label + "  " + doing);
                       }};
+    const Team team(shared.ranks);
+    const bool leads = team.leads();
     shared.prepared = run::prepare(target_.preset, shared.prepared ? &*shared.prepared : nullptr, watch);
     activity_.clear();
     const run::Prepared& prepared = *shared.prepared;
     for (const std::string& note : prepared.plan->notes)
-      if (!is_frame() || shared.notes.insert(note).second) fmt::print(stderr, "note: {}\n", note);
+      if (leads && (!is_frame() || shared.notes.insert(note).second)) fmt::print(stderr, "note: {}\n", note);
     const compute::Context& context = device_of(options_, shared);
+    if (shared.ranks) require_same(*shared.ranks, prepared, context);
+    if (!leads) return follow(prepared, context, team);
     std::optional<compute::TellOfCompiling> telling(std::in_place, context, [watch] { watch.begin("compiling kernels"); });
     std::unique_ptr<job::Job> job = taken_on(shared);
+    std::optional<compute::Together> together;
     if (!job) run::require_memory(prepared, context); // a run that cannot be leaves no folder
     const bool is_new_folder = run::claim_folder(target_.folder);
     try {
       reference_ = reference(prepared, context);
       if (!job) {
-        job = measure::measured(run::make_job(prepared, context), prepared.preset, reference_, began_, options_.pictures_at);
+        together.emplace(context, team);
+        job = run::make_job(prepared, context);
+        if (!team.is_alone()) job = job::led(std::move(job), team);
+        job = measure::measured(std::move(job), prepared.preset, reference_, began_, options_.pictures_at);
         shared.of_job = target_.preset;
         shared.inputs_of_job = prepared.plan->inputs;
       }
@@ -85,6 +100,15 @@ public:
   }
 
 private:
+  /// All that the other ranks do of a run.
+  static void follow(const run::Prepared& prepared, const compute::Context& context, const Team& team)
+  {
+    run::require_memory(prepared, context);
+    const compute::Together together(context, team);
+    const std::unique_ptr<job::Job> job = run::make_job(prepared, context);
+    job::follow(*job, team);
+  }
+
   bool is_frame() const { return !target_.animation.empty(); }
 
   /// The job of the frame before, where it can be this one's; else it is gone, with its memory.
@@ -332,9 +356,26 @@ const compute::Context& device_of(const RunOptions& options, Shared& shared)
 {
   if (!shared.context) {
     if (const std::string note = compute::prepare_kernel_cache(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
-    shared.context = compute::Context::open(options.device);
+    compute::DeviceOptions device = options.device;
+    device.turn = shared.device_of_several;
+    shared.context = compute::Context::open(device);
   }
   return *shared.context;
+}
+
+void require_same(const RunOptions& options, const preset::Preset& preset, const std::stop_token& interrupted, Shared& shared,
+                  team::Ranks& ranks)
+{
+  shared.prepared = run::prepare(preset, shared.prepared ? &*shared.prepared : nullptr, {interrupted, {}});
+  require_same(ranks, *shared.prepared, device_of(options, shared));
+}
+
+void require_shared(team::Ranks& ranks, const fs::path& file)
+{
+  ranks.wait_for_first();
+  if (!is_there(file))
+    throw bad_input(ranks.name(), fmt::format("does not see {}, which rank 0 has written", file.string()),
+                    "expected an output folder that all nodes share", "choose another one with -o");
 }
 
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared)

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
+#include <iterator>
 
 namespace nephroid::compute {
 namespace {
@@ -53,14 +55,14 @@ bool matches(const DeviceInfo& info, const std::string& selector)
   return lower_case(info.name).find(lower_case(selector)) != std::string::npos;
 }
 
-detail::Device choose(const std::vector<detail::Device>& devices, const std::string& selector)
+detail::Device choose(const std::vector<detail::Device>& devices, const std::string& selector, int turn)
 {
-  if (selector.empty()) {
-    const auto gpu = std::ranges::find_if(devices, [](const detail::Device& d) { return d.info.type == "gpu"; });
-    return gpu != devices.end() ? *gpu : devices.front();
-  }
-  for (const detail::Device& device : devices)
-    if (matches(device.info, selector)) return device;
+  std::vector<detail::Device> meant;
+  std::ranges::copy_if(devices, std::back_inserter(meant), [&](const detail::Device& device) {
+    return selector.empty() ? device.info.type == "gpu" : matches(device.info, selector);
+  });
+  if (meant.empty() && selector.empty()) meant = devices;
+  if (!meant.empty()) return meant[static_cast<std::size_t>(turn) % meant.size()];
   std::string there;
   for (const detail::Device& device : devices)
     there += fmt::format("{}{} {}", there.empty() ? "" : ", ", device.info.index, device.info.name);
@@ -121,7 +123,7 @@ Context Context::open(const DeviceOptions& options)
   if (devices.empty()) throw no_device_error();
   if (!options.kernels.empty() && !std::filesystem::is_directory(options.kernels))
     throw bad_input("--kernels " + options.kernels.string(), "not a folder", "a folder with every file of kernels/");
-  const detail::Device device = choose(devices, options.selector);
+  const detail::Device device = choose(devices, options.selector, options.turn);
   refuse_without_kernel_cache(device.info);
   Context context;
   context.state = std::make_shared<detail::ContextState>();
@@ -148,6 +150,12 @@ TellOfCompiling::~TellOfCompiling()
 {
   context_.state->tell_of_compiling = [] {};
 }
+
+Together::Together(Context context, Team team) : context_(std::move(context)) { context_.state->team = std::move(team); }
+
+Together::~Together() { context_.state->team = {}; }
+
+const Team& Context::team() const { return state->team; }
 
 const DeviceInfo& Context::device() const { return state->info; }
 

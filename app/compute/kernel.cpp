@@ -81,6 +81,12 @@ void RawBuffer::read(void* to, std::size_t bytes, std::size_t offset_bytes) cons
   named(*state, [&] { state->context->queue.enqueueReadBuffer(state->buffer, CL_TRUE, offset_bytes, bytes, to); });
 }
 
+const Team& RawBuffer::team() const
+{
+  static const Team alone;
+  return state ? state->context->team : alone;
+}
+
 void RawBuffer::fill_zero()
 {
   named(*state, [&] { state->context->queue.enqueueFillBuffer(state->buffer, Zeros{}, 0, state->buffer.getInfo<CL_MEM_SIZE>()); });

@@ -105,6 +105,13 @@ std::vector<shared::float4> parts_of(const Layout& l, int count)
   return parts;
 }
 
+/// Buffer::read_sum gives it again.
+void write_sum(compute::Buffer<std::int64_t>& buffer, const std::vector<std::int64_t>& sum)
+{
+  buffer.fill_zero();
+  if (buffer.team().leads()) buffer.write(sum);
+}
+
 std::size_t channels(const Layout& l) { return l.coloured ? 3 : 1; }
 
 /// The parallelogram's law: with noise, each half is farther from what is wanted than their mean is, by its square.
@@ -187,9 +194,21 @@ std::uint64_t rays_of(const Layout& layout)
 void Judge::advance()
 {
   const int rays_a_row = layout_.facets.x * front_.along * front_.along;
-  const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_step / rays_a_row));
-  const auto first = static_cast<std::uint32_t>(row_), count = static_cast<std::uint32_t>(rows * rays_a_row),
-             turn = static_cast<std::uint32_t>(round_);
+  const Team& team = context_.team();
+  const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_step / rays_a_row) * team.size());
+  const auto turn = static_cast<std::uint32_t>(round_);
+  Shares(team, layout_.facets.y).of({row_, rows}, [&](std::int64_t first_row, std::int64_t own) {
+    judge_rows(static_cast<std::uint32_t>(first_row), static_cast<std::uint32_t>(own * rays_a_row), turn);
+  });
+  context_.finish();
+  row_ += rows;
+  if (row_ < layout_.facets.y) return;
+  row_ = 0;
+  if (++round_ % 2 == 0) end_pair();
+}
+
+void Judge::judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t turn)
+{
   judge_.run(count, group,
              {{"nodes", solid_.nodes},
               {"blocks", solid_.blocks},
@@ -204,11 +223,6 @@ void Judge::advance()
               {"count", count},
               {"light", light_on_screens_[turn % 2]},
               {"fates", fates_}});
-  context_.finish();
-  row_ += rows;
-  if (row_ < layout_.facets.y) return;
-  row_ = 0;
-  if (++round_ % 2 == 0) end_pair();
 }
 
 void Judge::end_pair()
@@ -224,13 +238,13 @@ void Judge::read_sums()
 {
   const std::size_t cells = layout_.cell_count(), screen = cells * channels(layout_);
   for (std::size_t half = 0; half < 2; ++half) {
-    const std::vector<std::int64_t> light = light_on_screens_[half].read();
+    const std::vector<std::int64_t> light = light_on_screens_[half].read_sum();
     for (std::size_t j = 0; j < light_.size(); ++j)
       for (std::size_t c = 0; c < cells; ++c) halves_[half][j][c] = static_cast<double>(light[j * screen + c]) / RAY_QUANTA * 2 / round_;
   }
   for (std::size_t j = 0; j < light_.size(); ++j)
     for (std::size_t c = 0; c < cells; ++c) light_[j][c] = (halves_[0][j][c] + halves_[1][j][c]) / 2;
-  const std::vector<std::int64_t> fates = fates_.read();
+  const std::vector<std::int64_t> fates = fates_.read_sum();
   std::array<std::int64_t, FATES> sums{};
   for (std::size_t i = 0; i < fates.size(); ++i) sums[i % FATES] += fates[i];
   const auto facets = [&](int fate) { return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA / round_; };
@@ -243,7 +257,7 @@ std::vector<glm::dvec3> Judge::colours(std::size_t screen) const
   const std::size_t cells = layout_.cell_count();
   std::vector<glm::dvec3> xyz(cells);
   for (const auto& half : light_on_screens_) {
-    const std::vector<std::int64_t> light = half.read();
+    const std::vector<std::int64_t> light = half.read_sum();
     const auto channel = [&](std::size_t which, std::size_t c) {
       return static_cast<double>(light[(3 * screen + which) * cells + c]) / RAY_QUANTA / round_;
     };
@@ -276,14 +290,14 @@ void Judge::state(State& state)
   state.value(round_);
   state.value(finished_);
   for (auto& half : light_on_screens_) {
-    std::vector<std::int64_t> light = half.read();
+    std::vector<std::int64_t> light = half.read_sum();
     state.items(light);
-    if (state.is_read()) half.write(light);
+    if (state.is_read()) write_sum(half, light);
   }
-  std::vector<std::int64_t> fates = fates_.read();
+  std::vector<std::int64_t> fates = fates_.read_sum();
   state.items(fates);
   if (!state.is_read()) return;
-  fates_.write(fates);
+  write_sum(fates_, fates);
   if (finished_) read_sums();
 }
 

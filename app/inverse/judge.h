@@ -82,6 +82,7 @@ public:
 private:
   static inline const std::vector<Target> no_targets{};
 
+  void judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t turn);
   void end_pair(); ///< of rounds
   void read_sums();
 

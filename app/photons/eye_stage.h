@@ -42,7 +42,7 @@ public:
 
   void develop(std::int64_t, bool, job::Picture& picture) override
   {
-    tracing::add_layer(layer_, {film_.read(), quanta_per_unit(), [&](std::size_t pixel) { return pixels_.samples(pixel); }}, picture);
+    tracing::add_layer(layer_, {film_.read_sum(), quanta_per_unit(), [&](std::size_t pixel) { return pixels_.samples(pixel); }}, picture);
   }
 
   /// One sample of each block in each half.
@@ -53,13 +53,14 @@ public:
     std::vector<shared::uint2> samples;
     for (std::uint32_t block = 0; block < static_cast<std::uint32_t>(camera.width * camera.height); ++block)
       for (std::uint32_t half = 0; half < 2; ++half) samples.push_back({block, half});
+    world_.context.team().keep_own(samples);
     run(first_film_, camera, compute::Buffer(world_.context, "samples", samples), static_cast<std::uint32_t>(samples.size()));
     return true;
   }
 
   void develop_first(job::Picture& picture) override
   {
-    tracing::add_layer(layer_, {first_film_.read(), quanta_per_unit(), [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
+    tracing::add_layer(layer_, {first_film_.read_sum(), quanta_per_unit(), [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
   }
 
   void state(tracing::State& state) override

@@ -87,7 +87,7 @@ public:
 
   bool step(std::int64_t pass) override
   {
-    return slices_.step(tables_.photons_per_pass, [&](const tracing::Slice& slice) {
+    return slices_.step(world_.context.team(), tables_.photons_per_pass, [&](const tracing::Slice& slice) {
       world_.send(kernel_, slice, pass,
                   {{"everything", everything_},
                    {"emitters", emitters_},
@@ -114,13 +114,13 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
     const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
-    tracing::add_layer("indirect", {film_.read(), tables_.film_scale * world_.white, samples}, picture);
+    tracing::add_layer("indirect", {film_.read_sum(), tables_.film_scale * world_.white, samples}, picture);
   }
 
   void report(std::int64_t passes, bool done, Energy& energy) override
   {
     const double passes_done = static_cast<double>(passes) + (done ? 1 : part());
-    energy.indirect = balance_of(outcome_watts(energy_.read(), tables_.energy_scale, passes_done));
+    energy.indirect = balance_of(outcome_watts(energy_.read_sum(), tables_.energy_scale, passes_done));
     energy.caustics.refused_contributions += energy.indirect->refused_contributions;
   }
 

@@ -144,7 +144,7 @@ public:
     snapshot.picture = std::move(picture);
     snapshot.progress = progress();
     const double rounds = photon_rounds() - at_.energy_from;
-    Energy energy{balance_of(outcome_watts(world_.energy.read(), world_.tables.energy_scale, rounds)), {}};
+    Energy energy{balance_of(outcome_watts(world_.energy.read_sum(), world_.tables.energy_scale, rounds)), {}};
     for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, energy);
     add_energy(energy, snapshot);
     return snapshot;

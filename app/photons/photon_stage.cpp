@@ -45,8 +45,9 @@ public:
   {
     const RunTables& t = world_.tables;
     const std::int64_t round = pass * t.rounds + round_;
+    if (round_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is one rank's to store
     if (by_variance_ && slices_.at_start() && round >= first_deal(t.rounds) && deal_.is_due(round)) deal(round);
-    const bool complete = slices_.step(t.photons_per_round, [&](const tracing::Slice& slice) {
+    const bool complete = slices_.step(world_.context.team(), t.photons_per_round, [&](const tracing::Slice& slice) {
       world_.send(kernel_, slice, round,
                   {{"targets", world_.buffers.targets},
                    {"emitters", world_.emitters},
@@ -84,7 +85,7 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
     const std::array<double, 2> samples = tracing::halves_of(rounds(passes, done), slices_.part());
-    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }},
+    tracing::add_layer("caustic", {film_.read_sum(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }},
                        picture);
   }
 
@@ -123,8 +124,8 @@ private:
   {
     std::vector<double> photons(world_.tables.lights.size(), 0); // of a pass, of each light
     for (const shared::DeviceEmitter& e : deal_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
-    guide_.learn(guide_moments_.read(), photons, static_cast<double>(round - deal_.first_pass()));
-    deal_.deal(round, moments_.read(), world_.halves);
+    guide_.learn(guide_moments_.read_sum(), photons, static_cast<double>(round - deal_.first_pass()));
+    deal_.deal(round, moments_.read_sum(), world_.halves);
     if (!insists_ && round > first_deal(world_.tables.rounds) && deal_.gain() < least_gain) {
       by_variance_ = false;
       make_kernel();

@@ -92,6 +92,8 @@ void SampledPixels::take_next(std::int64_t pass, double amount)
     for (std::int64_t n = samples_in(pixel, pass); n > 0; --n)
       next_.push_back({static_cast<std::uint32_t>(pixel), 2 * counts_[pixel][half]++ + half});
   done_ = pixel < counts_.size() ? static_cast<std::int64_t>(pixel) : 0;
+  next_count_ = next_.size();
+  world_.context.team().keep_own(next_);
   if (!next_.empty()) on_device_.write(next_);
 }
 

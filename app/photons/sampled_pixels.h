@@ -32,8 +32,8 @@ public:
   template <class Work>
   bool step(std::int64_t pass, const Work& work)
   {
-    take_next(pass, amount_.amount());
-    amount_.timed(static_cast<double>(next_.size()), [&] {
+    take_next(pass, amount_.amount(world_.context.team()));
+    amount_.timed(static_cast<double>(next_count_), [&] {
       if (!next_.empty()) work(on_device_, static_cast<std::uint32_t>(next_.size()));
     });
     return done_ == 0;
@@ -56,7 +56,8 @@ private:
   std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: in even and in odd passes
   std::vector<std::int16_t> rates_;                  ///< [pixel]: n > 0: n samples a pass; n < 0: one in one of -n passes
   std::int64_t done_ = 0;                            ///< pixels of the pass in hand
-  std::vector<shared::uint2> next_;
+  std::vector<shared::uint2> next_; ///< of them this rank's
+  std::size_t next_count_ = 0;      ///< of all ranks
   compute::Buffer<shared::uint2> on_device_;
   tracing::StepSize amount_{1024};
 };

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {
@@ -35,15 +37,20 @@ struct Header {
 };
 static_assert(sizeof(Header) == 72, "the header has no padding: it is written as it is");
 
-Header header_of(const Prepared& prepared, const compute::Context& context)
+std::string device_of(const compute::Context& context)
 {
   const compute::DeviceInfo& device = context.device();
+  return fmt::format("{}\n{}\n{}\n{}", device.name, device.platform, device.version, device.driver);
+}
+
+Header header_of(const Prepared& prepared, const compute::Context& context)
+{
   const std::string_view engine = prepared.preset.settings.engine();
   Header header;
   header.state = engine::engine_of(prepared.preset).state_version;
   header.engine = word_of(engine);
   header.program = word_of(version());
-  header.device = hash_of(fmt::format("{}\n{}\n{}\n{}", device.name, device.platform, device.version, device.driver));
+  header.device = hash_of(device_of(context));
   header.kernels = hash_of(compute::kernel_sources(context, engine) + compute::kernel_sources(context, "photons"));
   header.content = content_hash(prepared.preset, prepared.plan->inputs);
   return header;
@@ -88,6 +95,17 @@ void write_checkpoint(const fs::path& folder, const Prepared& prepared, const co
     job.save(hashed);
     file.value(hashed.hash());
   });
+}
+
+std::vector<std::pair<std::string, std::string>> what_bits_hang_on(const Prepared& prepared, const compute::Context& context)
+{
+  const Header header = header_of(prepared, context);
+  std::string device = device_of(context);
+  std::ranges::replace(device, '\n', ' ');
+  return {{"version", std::string(version())},
+          {"device", std::move(device)},
+          {"kernels", fmt::format("{:016x}", header.kernels)},
+          {"preset and files", fmt::format("{:016x}", header.content)}};
 }
 
 bool load_checkpoint(const fs::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job)

@@ -7,32 +7,67 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <vector>
 
 namespace nephroid::tracing {
 
-/// nephroid::State with the buffers of a device.
+/// nephroid::State with the buffers of a device. Those of a team's ranks are one buffer there, whatever their number is.
 class State : public nephroid::State {
 public:
   using nephroid::State::State;
 
+  /// Sums that every rank adds to (Buffer::read_sum): what was loaded is rank 0's.
+  void buffer(compute::Buffer<std::int64_t>& buffer)
+  {
+    in_pieces(buffer, [&](std::size_t) {
+      if (is_read() && !buffer.team().leads()) std::ranges::fill(piece_, std::byte{0});
+      if (to_) buffer.team().add({reinterpret_cast<std::int64_t*>(piece_.data()), piece_.size() / sizeof(std::int64_t)});
+    });
+  }
+  /// What one of the ranks has written each item of, and the others have 0 (Buffer::read_joined): what was loaded all of them have.
   template <class T>
-  void buffer(compute::Buffer<T>& buffer)
+  void joined(compute::Buffer<T>& buffer)
+  {
+    in_pieces(buffer, [&](std::size_t) {
+      if (to_) buffer.team().join(piece_);
+    });
+  }
+  /// Several values of each item of `shares` (Shares::clear_others); others' than a rank's own are of no account.
+  template <class T>
+  void owned(compute::Buffer<T>& buffer, const Shares& shares, std::size_t values_an_item)
+  {
+    if (to_ && !buffer.team().is_alone()) {
+      std::vector<T> items = buffer.read();
+      shares.clear_others(std::span(items), values_an_item);
+      buffer.write(items);
+    }
+    joined(buffer);
+  }
+
+private:
+  /// work(at) comes between reading a piece from the device and writing it there.
+  template <class T, class Work>
+  void in_pieces(compute::Buffer<T>& buffer, const Work& work)
   {
     constexpr std::size_t piece_bytes = 1 << 18;
     for (std::size_t at = 0; at < buffer.bytes(); at += piece_bytes) {
       piece_.assign(std::min(piece_bytes, buffer.bytes() - at), std::byte{0});
-      if (to_) buffer.RawBuffer::read(piece_.data(), piece_.size(), at);
+      if (to_) {
+        buffer.RawBuffer::read(piece_.data(), piece_.size(), at);
+        work(at);
+      }
       bool is_zero = to_ && all_zero();
       value(is_zero);
       if (!is_zero) items(std::span(piece_));
-      if (from_) buffer.RawBuffer::write(piece_.data(), piece_.size(), at);
+      if (!from_) continue;
+      work(at);
+      buffer.RawBuffer::write(piece_.data(), piece_.size(), at);
     }
   }
 
-private:
   /// The first byte is 0 and each is as the one before.
   bool all_zero() const { return piece_[0] == std::byte{0} && std::memcmp(piece_.data(), piece_.data() + 1, piece_.size() - 1) == 0; }
 

@@ -69,13 +69,13 @@ static inline float2 along_lack(global const DeviceLayout* layout, const Footpri
 }
 
 // Of the weighted squares, by each facet's slope. That its footprint's size and its light change with it too is less than a hundredth of
-// that where a facet is small beside the distances, and left out.
+// that where a facet is small beside the distances, and left out. Of facets first .. first + count - 1.
 __kernel void find_gradient(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const DeviceIncoming* incoming,
                             __global const float* heights, __global const float2* slopes, __global const float* lack,
-                            __global float2* gradient)
+                            uint first, uint count, __global float2* gradient)
 {
-  const uint index = (uint)get_global_id(0);
-  if (index >= (uint)(layout->columns * layout->rows)) return;
+  const uint item = (uint)get_global_id(0), index = first + item;
+  if (item >= count) return;
   const Facet facet = facet_at(layout, incoming, heights, index);
   const Beams beams = beams_of(layout, &facet, slopes[index]);
   float2 sum = (float2)(0.0f);

@@ -83,12 +83,17 @@ Baker::Baker(const BakeTask& task, const compute::Context& context)
 void Baker::step()
 {
   const auto count =
-      static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons_a_step_.amount()), 1, std::int64_t{task_.photons} - sent_));
+      static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons_a_step_.amount(world_.context.team())), 1, std::int64_t{task_.photons} - sent_));
   const auto number = static_cast<std::uint32_t>(bake_.baked.size());
   // The light of the tables has power_unit W/m^2 as its unit.
   const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);
+  const Team& team = world_.context.team();
+  const auto ranks = static_cast<std::uint32_t>(team.size()), rank = static_cast<std::uint32_t>(team.rank());
+  const std::uint32_t before = count / ranks * rank + std::min(count % ranks, rank), own = count / ranks + (rank < count % ranks ? 1 : 0),
+                      first = sent_ + before;
   photons_a_step_.timed(count, [&] {
-    world_.run_photons(kernel_, count,
+    if (own == 0) return;
+    world_.run_photons(kernel_, own,
                        {{"targets", world_.buffers.targets},
                         {"light_rgb", light_rgb_},
                         {"radii", radii_},
@@ -99,8 +104,8 @@ void Baker::step()
                         {"direction", tracing::to_float4(task_.directions[number])},
                         {"number", number},
                         {"seed", world_.seed},
-                        {"first", sent_},
-                        {"count", count},
+                        {"first", first},
+                        {"count", own},
                         {"scale", scale}});
   });
   sent_ += count;
@@ -119,6 +124,7 @@ void Baker::finish_sphere(std::size_t sphere, double scale)
   std::vector<std::int64_t> sums(task_.sums_a_sphere());
   const std::size_t bytes = sums.size() * sizeof(std::int64_t);
   film_.RawBuffer::read(sums.data(), bytes, sphere * bytes);
+  film_.team().add(sums);
   for_ranges(texels_.size(), 1 << 14, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const std::int64_t* const of_texel = &sums[texels_[i] * task_.sums_a_texel()];
@@ -138,7 +144,7 @@ void Baker::finish_direction()
   bake_.light.resize(bake_.light.size() + bake_.direction_items());
   bake_.ways.resize(bake_.ways.size() + bake_.direction_texels());
   for (std::size_t sphere = 0; sphere < task_.radii.size(); ++sphere) finish_sphere(sphere, scale);
-  const std::vector<std::int64_t> energy = energy_.read();
+  const std::vector<std::int64_t> energy = energy_.read_sum();
   const auto area = [&](std::size_t outcome) { return area_of_quantum * static_cast<double>(energy[outcome]); };
   bake_.baked.push_back({area(OUTCOME_EMITTED) - area(OUTCOME_MISSED), area(OUTCOME_ESCAPED), area(OUTCOME_ABSORBED), area(OUTCOME_LOST)});
   film_.fill_zero();

@@ -35,12 +35,12 @@ void Receivers::forget()
 {
   states_.fill_zero();
   list_on_host_.clear();
-  known_ = lit_ = 0;
+  known_ = lit_ = shared_ = 0;
 }
 
 void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle)
 {
-  states_read_ = states_.read();
+  states_read_ = states_.read_joined();
   // Square after square, as texels beside each other look up spheres beside each other: a sixth faster than row after row.
   const std::size_t size = static_cast<std::size_t>(size_);
   for (std::size_t top = 0; top < 6 * size; top += square)
@@ -80,12 +80,38 @@ void Receivers::find_all(std::optional<Surroundings>& surroundings, const glm::d
 bool Receivers::cast(const std::function<void(const CastTexels&)>& light)
 {
   if (lit_ == known_) return true;
-  const auto count = static_cast<std::uint32_t>(
-      std::clamp<std::int64_t>(std::llround(texels_a_step_.amount()), 1, static_cast<std::int64_t>(known_ - lit_)));
-  const CastTexels texels{&list_, static_cast<std::uint32_t>(lit_), count, &distances_, &normals_, &caustics_, size_};
-  texels_a_step_.timed(count, [&] { light(texels); });
-  lit_ += count;
-  return lit_ == known_;
+  const Team& team = context_.team();
+  const auto count =
+      std::clamp<std::int64_t>(std::llround(texels_a_step_.amount(team)), 1, static_cast<std::int64_t>(known_ - lit_));
+  const Shares shares(team, static_cast<std::int64_t>(known_ - shared_));
+  texels_a_step_.timed(static_cast<double>(count), [&] {
+    shares.of({static_cast<std::int64_t>(lit_ - shared_), count}, [&](std::int64_t first, std::int64_t own) {
+      light({&list_, static_cast<std::uint32_t>(shared_) + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own), &distances_,
+             &normals_, &caustics_, size_});
+    });
+  });
+  lit_ += static_cast<std::size_t>(count);
+  if (lit_ < known_) return false;
+  for (compute::Buffer<float>* values : {&caustics_, &parts_seen_}) share(shares, *values);
+  shared_ = known_;
+  return true;
+}
+
+/// Lets all ranks of the team have what each has worked out of the list's newest.
+void Receivers::share(const Shares& shares, compute::Buffer<float>& values) const
+{
+  if (context_.team().is_alone()) return;
+  std::vector<float> all = values.read(), newest;
+  const auto each = [&](const auto& use) {
+    for (std::size_t i = shared_; i < known_; ++i)
+      for (std::size_t c = 0; c < 3; ++c) use(3 * (i - shared_) + c, 3 * std::size_t{list_on_host_[i]} + c);
+  };
+  newest.resize(3 * (known_ - shared_));
+  each([&](std::size_t to, std::size_t from) { newest[to] = all[from]; });
+  shares.clear_others(std::span(newest), 3);
+  context_.team().join(std::as_writable_bytes(std::span(newest)));
+  each([&](std::size_t from, std::size_t to) { all[to] = newest[from]; });
+  values.write(all);
 }
 
 } // namespace nephroid::environment

@@ -168,7 +168,7 @@ void Renderer::step()
 {
   switch (stage_) {
   case Stage::see:
-    if (!see_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); })) return;
+    if (!see_steps_.step(context_.team(), pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); })) return;
     fine_.find_wanted(surroundings_, task_.placement.middle);
     stage_ = Stage::cast;
     return;
@@ -176,7 +176,7 @@ void Renderer::step()
     if (cast(fine_)) stage_ = Stage::shade;
     return;
   case Stage::shade:
-    if (!shade_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); })) return;
+    if (!shade_steps_.step(context_.team(), pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); })) return;
     shaded_ = true;
     if (scatters())
       stage_ = Stage::compile_air;
@@ -188,7 +188,7 @@ void Renderer::step()
     stage_ = Stage::volume;
     return;
   case Stage::volume:
-    if (volume_steps_.step(pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); })) end_pass();
+    if (volume_steps_.step(context_.team(), pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); })) end_pass();
   }
 }
 
@@ -282,10 +282,15 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
 std::vector<Renderer::Layer> Renderer::layers() const
 {
   const std::size_t values = 3 * static_cast<std::size_t>(pixels());
+  const Team& team = context_.team();
   const auto layer = [&](const char* name, const std::array<compute::Buffer<float>, 2>& sums, std::size_t first, std::size_t ahead) {
     std::array<std::vector<float>, 2> halves{std::vector<float>(values), std::vector<float>(values)};
     for (const std::size_t h : {0, 1})
-      if (pass_ > 0 || h == 0) sums[h].RawBuffer::read(halves[h].data(), values * sizeof(float), first * sizeof(float));
+      if (pass_ > 0 || h == 0) {
+        sums[h].RawBuffer::read(halves[h].data(), values * sizeof(float), first * sizeof(float));
+        own_pixels().clear_others(std::span(halves[h]), 3);
+        team.join(std::as_writable_bytes(std::span(halves[h])));
+      }
     Layer result{name, std::vector<float>(values), std::vector<float>(pass_ >= 2 ? values : 0)};
     for_ranges(values, 1 << 14, [&](std::size_t, const Range& range) {
       for (std::size_t i = range.begin; i < range.end; ++i) {
@@ -373,8 +378,8 @@ void Renderer::state(tracing::State& state)
   shade_steps_.state(state);
   volume_steps_.state(state);
   for (const std::size_t half : {0, 1}) {
-    state.buffer(sums_[half]);
-    if (task_.has_medium) state.buffer(volume_sums_[half]);
+    state.owned(sums_[half], own_pixels(), 3);
+    if (task_.has_medium) state.owned(volume_sums_[half], own_pixels(), 3);
   }
   if (!state.is_read()) return;
   // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.

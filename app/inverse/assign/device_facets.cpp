@@ -5,6 +5,7 @@
 #include "inverse/bending.h"
 
 #include <algorithm>
+#include <span>
 #include <string>
 
 namespace nephroid::inverse {
@@ -48,6 +49,16 @@ std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& ta
   for (const Target& target : targets)
     for (const double t : target) wanted.push_back(static_cast<float>(t * static_cast<double>(layout.facet_count())));
   return wanted;
+}
+
+/// Puts the first `own` items of each rank of the team at their place among `count`: those of this one begin at `begin`.
+template <class T>
+void share(compute::Buffer<T>& items, std::size_t begin, std::size_t own, std::size_t count)
+{
+  std::vector<T> all(count);
+  items.RawBuffer::read(all.data() + begin, own * sizeof(T), 0);
+  items.team().join(std::as_writable_bytes(std::span(all)));
+  items.write(all);
 }
 
 std::size_t rimmed_cells(const Layout& l)
@@ -226,6 +237,26 @@ void DeviceFacets::begin_sweep(const std::vector<std::uint32_t>& order, std::int
   turn_ = all_turns; // the next one begins anew
 }
 
+/// Each rank of the team looks for some of the facets. Then all know of all.
+void DeviceFacets::find_better(std::size_t first, std::size_t count, double smoothing)
+{
+  const Team& team = context_.team();
+  const std::size_t ranks = static_cast<std::size_t>(team.size()), rank = static_cast<std::size_t>(team.rank());
+  const std::size_t begin = count * rank / ranks, own = count * (rank + 1) / ranks - begin;
+  const auto first_facet = static_cast<std::uint32_t>(first + begin), facets = static_cast<std::uint32_t>(own);
+  const auto weight = static_cast<float>(smoothing);
+  const compute::Argument shared[] = {{"layout", layout_},    {"receivers", receivers_}, {"incoming", incoming_}, {"heights", heights_},
+                                      {"slopes", slopes_},    {"lack", lack_},           {"smoothing", weight},   {"order", order_},
+                                      {"first", first_facet}, {"count", facets}};
+  if (own > 0) {
+    propose_.run(own, group, shared, {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}, {"candidates", candidates_}});
+    look_.run(own, group, shared, {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
+  }
+  if (team.is_alone()) return;
+  share(found_, begin, own, count);
+  share(done_, begin, own, count);
+}
+
 void DeviceFacets::look(std::size_t first, std::size_t count, double smoothing)
 {
   const auto first_facet = static_cast<std::uint32_t>(first), facets = static_cast<std::uint32_t>(count);
@@ -235,8 +266,7 @@ void DeviceFacets::look(std::size_t first, std::size_t count, double smoothing)
                                       {"first", first_facet}, {"count", facets}};
   smear_y_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"lack", lack_}, {"along_y", along_y_}});
   smear_x_.run(rows_, 1, {{"layout", layout_}, {"receivers", receivers_}, {"along_y", along_y_}, {"smeared", smeared_}});
-  propose_.run(count, group, shared, {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}, {"candidates", candidates_}});
-  look_.run(count, group, shared, {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
+  find_better(first, count, smoothing);
   for (int i = 0; i < turns; ++i, ++turn_) {
     if (turn_ >= all_turns) {
       claims_.write(std::vector<std::uint32_t>(claims_.size(), ~0u));
@@ -251,15 +281,23 @@ void DeviceFacets::look(std::size_t first, std::size_t count, double smoothing)
 
 std::vector<glm::dvec2> DeviceFacets::gradient()
 {
-  find_gradient_.run(facets_, group,
-                     {{"layout", layout_},
-                      {"receivers", receivers_},
-                      {"incoming", incoming_},
-                      {"heights", heights_},
-                      {"slopes", slopes_},
-                      {"lack", lack_},
-                      {"gradient", gradient_}});
-  return wide(gradient_.read());
+  const Team& team = context_.team();
+  const auto facets = static_cast<std::int64_t>(facets_);
+  if (!team.is_alone()) gradient_.fill_zero();
+  Shares(team, facets).of({0, facets}, [&](std::int64_t begin, std::int64_t own) {
+    const auto first = static_cast<std::uint32_t>(begin), count = static_cast<std::uint32_t>(own);
+    find_gradient_.run(count, group,
+                       {{"layout", layout_},
+                        {"receivers", receivers_},
+                        {"incoming", incoming_},
+                        {"heights", heights_},
+                        {"slopes", slopes_},
+                        {"lack", lack_},
+                        {"first", first},
+                        {"count", count},
+                        {"gradient", gradient_}});
+  });
+  return wide(gradient_.read_joined());
 }
 
 std::uint64_t DeviceFacets::bytes(const Layout& l)

@@ -73,6 +73,7 @@ private:
   shared::uint2 seed_{};
 
   void find_lack();
+  void find_better(std::size_t first, std::size_t count, double smoothing);
 };
 
 } // namespace nephroid::inverse

@@ -59,8 +59,12 @@ public:
     if (first.rounds == 0) return true;
     map_.build(radius, first.rounds * world_.tables.photons_per_round);
     for (std::uint32_t path = 0; path < 2 * first_paths; ++path) {
-      eye_.look(camera, world_.seed, 0, {first_paths, path, path}, -1, first.glass, 0, count);
-      gather(first_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, first.rounds, first.glass, 0, count);
+      Shares(world_.context.team(), count).of({0, count}, [&](std::int64_t begin, std::int64_t own) {
+        const auto from = static_cast<std::uint32_t>(begin), blocks = static_cast<std::uint32_t>(own);
+        eye_.look(camera, world_.seed, 0, {first_paths, path, path}, -1, first.glass, from, blocks);
+        gather(first_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, first.rounds, first.glass, from,
+               blocks);
+      });
     }
     world_.context.finish();
     return true;
@@ -69,7 +73,7 @@ public:
   void develop_first(job::Picture& picture) override
   {
     const double scale = world_.tables.caustic_scale * world_.white;
-    tracing::add_layer("caustic", {first_film_.read(), scale, [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
+    tracing::add_layer("caustic", {first_film_.read_sum(), scale, [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
   }
 
   bool step(std::int64_t pass) override
@@ -91,7 +95,7 @@ public:
     const std::int64_t complete = passes + (done ? 1 : 0);
     const std::uint32_t next = eye_.done() > 0 ? world_.pixels.glass[static_cast<std::size_t>(eye_.done())] : 0; // in the pass in hand
     const auto samples = [=](std::size_t pixel) { return tracing::halves_of(complete + (pixel < next ? 1 : 0), 0); };
-    tracing::add_layer("caustic", {film_.read(), world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic", {film_.read_sum(), world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
   void state(tracing::State& state) override
@@ -102,7 +106,7 @@ public:
     state.buffer(film_);
     if (state.is_read()) first_film_ = world_.first_film();
     state.buffer(first_film_);
-    state.buffer(map_.stored());
+    state.joined(map_.stored());
     if (state.is_read()) sorted_pass_ = -1;
   }
 

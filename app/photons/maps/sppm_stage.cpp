@@ -17,6 +17,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <span>
 
 namespace nephroid::photons {
 namespace {
@@ -111,7 +112,10 @@ public:
                          {"per_iteration_before", per_iteration(after)},
                          {"per_iteration_after", per_iteration(before)}});
     }
-    const std::vector<float> xyz = sums.read();
+    std::vector<float> xyz = sums.read();
+    const Team& team = world_.context.team();
+    own_pixels().clear_others(std::span(xyz), 3);
+    team.join(std::as_writable_bytes(std::span(xyz)));
     std::vector<float>& caustic = tracing::layer_of(picture, "caustic").rgb;
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
       const optics::Colour rgb = optics::xyz_to_linear_srgb({xyz[i] / world_.white, xyz[i + 1] / world_.white, xyz[i + 2] / world_.white});
@@ -128,7 +132,7 @@ public:
       const bool had = done || (!random_ && run < at_.cluster) || (in_hand && at_.sent);
       const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) + (in_hand && !at_.sent ? slices_.part() : 0);
       if (count <= 0) continue;
-      const OutcomeWatts of_run = outcome_watts(runs_[static_cast<std::size_t>(run)].energy.read(), world_.tables.energy_scale, count);
+      const OutcomeWatts of_run = outcome_watts(runs_[static_cast<std::size_t>(run)].energy.read_sum(), world_.tables.energy_scale, count);
       const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all
       for (std::size_t i = 0; i < watts.size(); ++i) watts[i] += i == OUTCOME_REFUSED ? of_run[i] : share * of_run[i];
     }
@@ -140,9 +144,9 @@ public:
     state.value(at_);
     slices_.state(state);
     eye_.state(state);
-    state.buffer(map_.stored());
+    state.joined(map_.stored());
     for (ClusterRun& run : runs_) {
-      state.buffer(run.statistics);
+      state.owned(run.statistics, own_pixels(), 1);
       state.buffer(run.energy);
     }
     if (state.is_read()) sorted_ = false;
@@ -157,6 +161,7 @@ private:
 
   int cluster_count() const { return world_.tables.scene.cluster_count; }
   std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(world_.tables.camera.width * world_.tables.camera.height); }
+  Shares own_pixels() const { return {world_.context.team(), pixel_count()}; }
   ClusterRun& run_of(int cluster) { return runs_[random_ ? 0 : static_cast<std::size_t>(cluster)]; }
 
   /// Iterations of a cluster's run in `passes` passes.
@@ -258,7 +263,8 @@ private:
 
   bool send(std::int64_t pass)
   {
-    return slices_.step(photons_, [&](const tracing::Slice& slice) { send_photons(pass, slice); });
+    if (slices_.at_start()) map_.stored().fill_zero(); // each photon is one rank's to store
+    return slices_.step(world_.context.team(), photons_, [&](const tracing::Slice& slice) { send_photons(pass, slice); });
   }
 
   bool gather(std::int64_t pass)

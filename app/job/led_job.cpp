@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/led_job.h"
+
+#include <exception>
+
+namespace nephroid::job {
+namespace {
+
+enum class Call : std::uint8_t { step, snapshot, save, load, end };
+
+class Nowhere final : public ByteSink {
+public:
+  void write(std::span<const std::byte>) override {}
+};
+
+/// Where a disk is full the others go on all the same, and rank 0 has to keep in step with them.
+class Patient final : public ByteSink {
+public:
+  explicit Patient(ByteSink& to) : to_(to) {}
+  void write(std::span<const std::byte> bytes) override
+  {
+    if (thrown_) return;
+    try {
+      to_.write(bytes);
+    } catch (...) {
+      thrown_ = std::current_exception();
+    }
+  }
+  void rethrow() const
+  {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+private:
+  ByteSink& to_;
+  std::exception_ptr thrown_;
+};
+
+class LedJob final : public Job {
+public:
+  LedJob(std::unique_ptr<Job> job, const Team& team) : job_(std::move(job)), team_(team) {}
+  /// What failed ends all ranks anyway.
+  ~LedJob() override
+  {
+    if (std::uncaught_exceptions() == 0) team_.told(Call::end);
+  }
+
+  void step() override
+  {
+    team_.told(Call::step);
+    job_->step();
+  }
+  bool finished() const override { return job_->finished(); }
+  Progress progress() const override { return job_->progress(); }
+  Snapshot snapshot() override
+  {
+    team_.told(Call::snapshot);
+    return job_->snapshot();
+  }
+  bool estimates_error() const override { return job_->estimates_error(); }
+  void save(ByteSink& to) override
+  {
+    team_.told(Call::save);
+    Patient patient(to);
+    job_->save(patient);
+    patient.rethrow();
+  }
+  void load(ByteSource& from) override
+  {
+    team_.told(Call::load);
+    std::vector<std::byte> bytes(from.left());
+    from.read(bytes);
+    bytes = team_.told(std::move(bytes));
+    StoredBytes all(bytes, "checkpoint.bin");
+    job_->load(all);
+    if (all.left() > 0) throw bad_input("checkpoint.bin", "has more than the run's state");
+  }
+
+private:
+  std::unique_ptr<Job> job_;
+  Team team_;
+};
+
+} // namespace
+
+std::unique_ptr<Job> led(std::unique_ptr<Job> job, const Team& team) { return std::make_unique<LedJob>(std::move(job), team); }
+
+void follow(Job& job, const Team& team)
+{
+  Nowhere nowhere;
+  while (true) switch (team.told(Call::end)) {
+    case Call::step:
+      job.step();
+      break;
+    case Call::snapshot:
+      job.snapshot();
+      break;
+    case Call::save:
+      job.save(nowhere);
+      break;
+    case Call::load: {
+      const std::vector<std::byte> bytes = team.told(std::vector<std::byte>());
+      StoredBytes all(bytes, "checkpoint.bin");
+      job.load(all);
+      break;
+    }
+    case Call::end:
+      return;
+    }
+}
+
+} // namespace nephroid::job

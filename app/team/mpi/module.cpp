@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// The only file that knows MPI: a module that team.cpp loads.
+//
+// Nobody waits inside of MPI: its waits spin on a core, which a rank beside it could use, and never end where a rank has died. So every
+// call is begun, asked after at times, and in between it is seen whether the others are still there.
+#include "base/error.h"
+#include "team/team.h"
+
+#include <mpi.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <exception>
+#include <thread>
+#include <unistd.h>
+
+namespace nephroid::team {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Rank {
+  char host[MPI_MAX_PROCESSOR_NAME] = {};
+  pid_t process = 0;
+};
+
+constexpr int no_more = -1; ///< in place of a number that is dealt
+constexpr int ask = 1, answer = 2;
+
+class MpiRanks final : public Ranks {
+public:
+  MpiRanks()
+  {
+    int given = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given); // deal() talks on a thread of its own
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+    ranks_.resize(static_cast<std::size_t>(size_));
+    Rank own;
+    int length = 0;
+    MPI_Get_processor_name(own.host, &length);
+    own.process = ::getpid();
+    MPI_Allgather(&own, sizeof own, MPI_BYTE, ranks_.data(), sizeof own, MPI_BYTE, MPI_COMM_WORLD);
+  }
+  /// Of a run that failed, abort() is the end.
+  ~MpiRanks() override
+  {
+    if (std::uncaught_exceptions() > 0) return;
+    wait_for_first(); // which may still write files
+    MPI_Finalize();
+  }
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  std::string name() const override { return name_of(rank_); }
+  int number_on_host() const override
+  {
+    return static_cast<int>(std::count_if(ranks_.begin(), ranks_.begin() + rank_, [&](const Rank& other) { return is_here(other); }));
+  }
+
+  void add(std::span<std::int64_t> numbers) override
+  {
+    in_pieces(numbers, [](std::int64_t* piece, int count, MPI_Request* request) {
+      return MPI_Iallreduce(MPI_IN_PLACE, piece, count, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD, request);
+    });
+  }
+  void join(std::span<std::byte> bytes) override
+  {
+    in_pieces(bytes, [](std::byte* piece, int count, MPI_Request* request) {
+      return MPI_Iallreduce(MPI_IN_PLACE, piece, count, MPI_BYTE, MPI_BOR, MPI_COMM_WORLD, request);
+    });
+  }
+  void tell(std::span<std::byte> bytes) override
+  {
+    in_pieces(bytes, [](std::byte* piece, int count, MPI_Request* request) {
+      return MPI_Ibcast(piece, count, MPI_BYTE, 0, MPI_COMM_WORLD, request);
+    });
+  }
+
+  void deal(std::int64_t count, const std::function<void(std::int64_t)>& work) override
+  {
+    rank_ == 0 ? deal_out(count, work) : take_dealt(work);
+  }
+
+  [[noreturn]] void abort(int exit_code) override
+  {
+    MPI_Abort(MPI_COMM_WORLD, exit_code);
+    std::_Exit(exit_code);
+  }
+
+private:
+  /// On this machine.
+  bool is_here(const Rank& other) const { return std::string_view(other.host) == ranks_[static_cast<std::size_t>(rank_)].host; }
+  std::string name_of(int rank) const { return fmt::format("rank {} on {}", rank, ranks_[static_cast<std::size_t>(rank)].host); }
+
+  /// Rank 0 deals beside its own work.
+  void deal_out(std::int64_t count, const std::function<void(std::int64_t)>& work)
+  {
+    std::atomic<std::int64_t> next = 0;
+    std::exception_ptr thrown;
+    std::jthread others([&] {
+      try {
+        for (int left = size_ - 1; left > 0;) {
+          int has_asked = 0;
+          MPI_Status who{};
+          wait_until([&] {
+            MPI_Iprobe(MPI_ANY_SOURCE, ask, MPI_COMM_WORLD, &has_asked, &who);
+            return has_asked != 0;
+          });
+          MPI_Recv(nullptr, 0, MPI_BYTE, who.MPI_SOURCE, ask, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+          std::int64_t number = next++;
+          if (number >= count) number = no_more, --left;
+          MPI_Send(&number, 1, MPI_INT64_T, who.MPI_SOURCE, answer, MPI_COMM_WORLD);
+        }
+      } catch (...) {
+        thrown = std::current_exception();
+        next = count;
+      }
+    });
+    for (std::int64_t number = next++; number < count; number = next++) work(number);
+    others.join();
+    if (thrown) std::rethrow_exception(thrown);
+  }
+
+  void take_dealt(const std::function<void(std::int64_t)>& work)
+  {
+    while (true) {
+      std::int64_t number = no_more;
+      MPI_Request request = MPI_REQUEST_NULL;
+      MPI_Send(nullptr, 0, MPI_BYTE, 0, ask, MPI_COMM_WORLD);
+      MPI_Irecv(&number, 1, MPI_INT64_T, 0, answer, MPI_COMM_WORLD, &request);
+      wait(request);
+      if (number == no_more) return;
+      work(number);
+    }
+  }
+
+  /// MPI counts in int.
+  template <class T, class Begin>
+  void in_pieces(std::span<T> items, const Begin& begin)
+  {
+    constexpr std::size_t most = 1 << 26;
+    for (std::size_t at = 0; at < items.size(); at += most) {
+      MPI_Request request = MPI_REQUEST_NULL;
+      begin(items.data() + at, static_cast<int>(std::min(most, items.size() - at)), &request);
+      wait(request);
+    }
+  }
+
+  void wait(MPI_Request& request)
+  {
+    wait_until([&] {
+      int done = 0;
+      MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+      return done != 0;
+    });
+  }
+
+  template <class IsDone>
+  void wait_until(const IsDone& is_done)
+  {
+    const Clock::time_point began = Clock::now();
+    Clock::time_point looked = began;
+    while (!is_done()) {
+      const Clock::time_point now = Clock::now();
+      if (now - began > std::chrono::microseconds(200)) std::this_thread::sleep_for(std::chrono::microseconds(50));
+      if (now - looked < std::chrono::milliseconds(200)) continue;
+      looked = now;
+      require_others();
+    }
+  }
+
+  /// Those on this machine; mpirun itself sees to those on others.
+  void require_others() const
+  {
+    for (int rank = 0; rank < size_; ++rank) {
+      const Rank& other = ranks_[static_cast<std::size_t>(rank)];
+      if (!is_here(other) || ::kill(other.process, 0) == 0) continue;
+      throw failed(name_of(rank), fmt::format("process {} has died, and {} waits for it", other.process, name_of(rank_)), {},
+                   "go on from the last checkpoint with --resume");
+    }
+  }
+
+  int rank_ = 0, size_ = 1;
+  std::vector<Rank> ranks_;
+};
+
+} // namespace
+} // namespace nephroid::team
+
+extern "C" __attribute__((visibility("default"))) nephroid::team::Ranks* nephroid_open_ranks() { return new nephroid::team::MpiRanks; }

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "team/team.h"
+
+#include "base/error.h"
+#include "base/files.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <dlfcn.h>
+#include <filesystem>
+
+namespace nephroid::team {
+namespace {
+
+/// How many processes were started together, as Open MPI's mpirun or a srun says it; 1 where nobody does.
+int started_together()
+{
+  for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+    if (const char* value = std::getenv(variable)) return std::atoi(value);
+  // srun --mpi=pmix names the ranks alone, and the job says how many there are.
+  const char *rank = std::getenv("PMIX_RANK"), *tasks = std::getenv("SLURM_NTASKS");
+  return rank && tasks ? std::atoi(tasks) : 1;
+}
+
+} // namespace
+
+std::shared_ptr<Ranks> open_ranks()
+{
+  const int count = started_together();
+  if (count <= 1) return nullptr;
+  const std::filesystem::path file = library_file(module_name);
+  const std::string started = fmt::format("was started as one of {} processes", count);
+  if (!std::filesystem::exists(file))
+    throw failed("mpirun", "nephroid " + started + ", and this build knows no MPI", {}, "install libopenmpi-dev and build it anew, or start one process");
+  // MPI loads plug-ins of its own, which look for its symbols.
+  void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (!library) throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install Open MPI");
+  return std::shared_ptr<Ranks>(reinterpret_cast<OpenRanks>(::dlsym(library, open_symbol))());
+}
+
+void require_same(Ranks& ranks, const std::string& what, const std::string& mine)
+{
+  std::uint64_t size = mine.size();
+  ranks.tell(std::as_writable_bytes(std::span(&size, 1)));
+  std::string first = mine;
+  first.resize(size);
+  ranks.tell(std::as_writable_bytes(std::span(first)));
+  if (first != mine)
+    throw bad_input(ranks.name(), fmt::format("has another {} than rank 0: {}, and not {}", what, mine, first), {},
+                    "all ranks need the same program, device, preset and files");
+}
+
+} // namespace nephroid::team

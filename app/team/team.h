@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ranks of an MPI job as a team. MPI itself is in a module of its own (mpi/module.cpp), which is loaded where mpirun or srun has
+// started this process, and only there.
+#pragma once
+#include "base/team.h"
+
+#include <functional>
+#include <string>
+
+namespace nephroid::team {
+
+/// What a command needs of its ranks beside their team.
+class Ranks : public Team::Ties {
+public:
+  /// "rank 3 on node7"
+  virtual std::string name() const = 0;
+  /// How many ranks with lower numbers are on the same machine.
+  virtual int number_on_host() const = 0;
+  /// Returns once rank 0 has called this, too.
+  void wait_for_first()
+  {
+    std::byte nothing{};
+    tell({&nothing, 1});
+  }
+  /// Calls work(0), ..., work(count - 1), each on one rank: whoever is free takes the next. Returns once all ranks are done.
+  virtual void deal(std::int64_t count, const std::function<void(std::int64_t)>& work) = 0;
+  /// Ends all ranks at once, with this exit code.
+  [[noreturn]] virtual void abort(int exit_code) = 0;
+};
+
+/// The module's only function.
+inline constexpr const char* module_name = "libnephroid_mpi.so";
+inline constexpr const char* open_symbol = "nephroid_open_ranks";
+/// Joins the other ranks. At its end it waits until each has come to its end.
+using OpenRanks = Ranks* (*)();
+
+/// The ranks that mpirun or srun has started this process with; null where it is alone. Throws failed where it is not, and this build has no
+/// MPI or the module cannot be loaded.
+std::shared_ptr<Ranks> open_ranks();
+
+/// Throws bad_input on each rank whose `mine` is not that of rank 0. what: "version", for the message.
+void require_same(Ranks& ranks, const std::string& what, const std::string& mine);
+
+} // namespace nephroid::team
