@@ -55,11 +55,12 @@ public:
     if (!is_alone()) ties_->tell(std::as_writable_bytes(std::span(&value, 1)));
     return value;
   }
-  std::vector<std::byte> told(std::vector<std::byte> bytes) const
+  template <class T>
+  std::vector<T> told(std::vector<T> items) const
   {
-    bytes.resize(told(bytes.size()));
-    if (!is_alone()) ties_->tell(bytes);
-    return bytes;
+    items.resize(told(items.size()));
+    if (!is_alone()) ties_->tell(std::as_writable_bytes(std::span(items)));
+    return items;
   }
 
   /// Every size()-th of the items is this rank's.

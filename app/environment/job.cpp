@@ -34,7 +34,7 @@ public:
         sphere_white_(plan.render ? 0.2 : preset.white), stop_(preset.stop)
   {
     if (render_ && (stop_.passes || !stop_.seconds)) passes_ = stop_.passes.value_or(preset::default_passes);
-    if (!plan.bakes) read();
+    if (context.team().told(!plan.bakes)) read();
     if (!bake_) baker_.emplace(*task_, context_);
     if (refines() || bake_) begin_rendering(plan.photons);
   }
@@ -355,18 +355,26 @@ private:
 
   std::int64_t directions_done() const { return static_cast<std::int64_t>((bake_ ? *bake_ : baker_->bake()).baked.size()); }
 
+  /// Ranks of a team have rank 0's.
   void read()
   {
+    const Team& team = context_.team();
     try {
-      bake_ = read_bake(file_, identity_);
-      from_file_ = true;
+      if (team.leads()) bake_ = read_bake(file_, identity_);
     } catch (const Error& error) {
       warnings_.push_back(error.line() + "; it is baked again");
     }
+    from_file_ = team.told(bake_.has_value());
+    if (!from_file_ || team.is_alone()) return;
+    if (!bake_) bake_ = task_->empty_bake();
+    bake_->baked = team.told(std::move(bake_->baked));
+    bake_->light = team.told(std::move(bake_->light));
+    bake_->ways = team.told(std::move(bake_->ways));
   }
 
   void keep()
   {
+    if (!context_.team().leads()) return;
     try {
       write_bake(file_, identity_, *bake_);
     } catch (const Error& error) {
