@@ -11,6 +11,7 @@ find_package(embree REQUIRED) # 3 or 4
 find_package(assimp REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
+find_package(MPI QUIET COMPONENTS CXX) # without it a run is one process
 # OpenImageIO's own CMake package fails on Debian 12 without openimageio-tools; pkg-config works.
 pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(qrencode REQUIRED IMPORTED_TARGET libqrencode)

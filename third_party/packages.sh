@@ -16,8 +16,9 @@ program_packages=(
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
 # The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets,
-# admesh checks meshes that are to be milled, zbar-tools reads QR codes.
-test_packages=(libgtest-dev libgmock-dev libboost-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema admesh zbar-tools)
+# admesh checks meshes that are to be milled, zbar-tools reads QR codes. Open MPI: runs on several machines, which who wants them builds.
+test_packages=(libgtest-dev libgmock-dev libboost-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema admesh zbar-tools
+  libopenmpi-dev openmpi-bin)
 # What .ci/run checks the sources and fuzzes with. libclang-rt-dev: libFuzzer and the sanitizers of clang.
 check_packages=(clang clang-format clang-tidy libclang-rt-dev shellcheck)
 

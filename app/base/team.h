@@ -17,6 +17,12 @@ namespace nephroid {
 
 class Team {
 public:
+  /// What went to and fro, and how long this rank has waited for the others and the network.
+  struct Talk {
+    std::uint64_t calls = 0, bytes = 0;
+    double seconds = 0;
+  };
+
   /// How ranks talk. A call returns once every rank has made it, and throws failed, naming the rank, where one does not answer any more.
   class Ties {
   public:
@@ -29,11 +35,14 @@ public:
     virtual void join(std::span<std::byte> bytes) = 0;
     /// Each becomes that of rank 0.
     virtual void tell(std::span<std::byte> bytes) = 0;
+    /// Of all calls so far.
+    virtual Talk talk() const { return {}; }
   };
 
   Team() = default; ///< alone
   explicit Team(std::shared_ptr<Ties> ties) : ties_(std::move(ties)) {}
 
+  Talk talk() const { return ties_ ? ties_->talk() : Talk(); }
   int rank() const { return ties_ ? ties_->rank() : 0; }
   int size() const { return ties_ ? ties_->size() : 1; }
   bool is_alone() const { return size() == 1; }

@@ -86,7 +86,8 @@ void fit_white(const RunOptions& options, Target& target, const std::stop_token&
       shared.prepared = run::prepare(first, shared.prepared ? &*shared.prepared : nullptr, {interrupted, {}});
       shared.white = run::fitted_white(*shared.prepared, device_of(options, shared), {interrupted, {}});
     });
-    if (!shared.ranks || shared.ranks->rank() == 0) fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
+    if (!shared.ranks || shared.ranks->rank() == 0)
+      fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
   }
   target.preset.white = *shared.white;
 }
@@ -115,7 +116,8 @@ void run_all(const RunOptions& options, std::vector<Target>& targets, const std:
 }
 
 /// Of a sweep each rank does the next run, alone, whenever it is free.
-void deal_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared, team::Ranks& ranks)
+void deal_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared,
+               team::Ranks& ranks)
 {
   for (Target& target : targets) fit_white(options, target, interrupted, shared);
   require_same(options, targets.front().preset, interrupted, shared, ranks);

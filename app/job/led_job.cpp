@@ -55,7 +55,13 @@ public:
   Snapshot snapshot() override
   {
     team_.told(Call::snapshot);
-    return job_->snapshot();
+    Snapshot snapshot = job_->snapshot();
+    const Team::Talk talk = team_.talk();
+    snapshot.scalars.insert(snapshot.scalars.end(), {{"ranks", "count", static_cast<double>(team_.size())},
+                                                     {"ranks", "calls", static_cast<double>(talk.calls)},
+                                                     {"ranks", "bytes", static_cast<double>(talk.bytes)},
+                                                     {"ranks", "waiting_seconds", talk.seconds}});
+    return snapshot;
   }
   bool estimates_error() const override { return job_->estimates_error(); }
   void save(ByteSink& to) override

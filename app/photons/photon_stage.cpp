@@ -85,8 +85,8 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
     const std::array<double, 2> samples = tracing::halves_of(rounds(passes, done), slices_.part());
-    tracing::add_layer("caustic", {film_.read_sum(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }},
-                       picture);
+    tracing::add_layer("caustic",
+                       {film_.read_sum(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }}, picture);
   }
 
   void state(tracing::State& state) override

@@ -56,8 +56,8 @@ private:
   std::vector<std::array<std::uint32_t, 2>> counts_; ///< [pixel]: in even and in odd passes
   std::vector<std::int16_t> rates_;                  ///< [pixel]: n > 0: n samples a pass; n < 0: one in one of -n passes
   std::int64_t done_ = 0;                            ///< pixels of the pass in hand
-  std::vector<shared::uint2> next_; ///< of them this rank's
-  std::size_t next_count_ = 0;      ///< of all ranks
+  std::vector<shared::uint2> next_;                  ///< of them this rank's
+  std::size_t next_count_ = 0;                       ///< of all ranks
   compute::Buffer<shared::uint2> on_device_;
   tracing::StepSize amount_{1024};
 };

@@ -23,16 +23,24 @@ int started_together()
   return rank && tasks ? std::atoi(tasks) : 1;
 }
 
+/// Throws failed where this build has none: several processes would write into one folder.
+std::filesystem::path module_file(int count)
+{
+  try {
+    return library_file(module_name);
+  } catch (const Error&) {
+    throw failed("mpirun", fmt::format("nephroid was started as one of {} processes, and this build knows no MPI", count), {},
+                 "install libopenmpi-dev and build it anew, or start one process");
+  }
+}
+
 } // namespace
 
 std::shared_ptr<Ranks> open_ranks()
 {
   const int count = started_together();
   if (count <= 1) return nullptr;
-  const std::filesystem::path file = library_file(module_name);
-  const std::string started = fmt::format("was started as one of {} processes", count);
-  if (!std::filesystem::exists(file))
-    throw failed("mpirun", "nephroid " + started + ", and this build knows no MPI", {}, "install libopenmpi-dev and build it anew, or start one process");
+  const std::filesystem::path file = module_file(count);
   // MPI loads plug-ins of its own, which look for its symbols.
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (!library) throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install Open MPI");

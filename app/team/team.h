@@ -34,8 +34,8 @@ inline constexpr const char* open_symbol = "nephroid_open_ranks";
 /// Joins the other ranks. At its end it waits until each has come to its end.
 using OpenRanks = Ranks* (*)();
 
-/// The ranks that mpirun or srun has started this process with; null where it is alone. Throws failed where it is not, and this build has no
-/// MPI or the module cannot be loaded.
+/// The ranks that mpirun or srun has started this process with; null where it is alone. Throws failed where it is not, and this build has
+/// no MPI or the module cannot be loaded.
 std::shared_ptr<Ranks> open_ranks();
 
 /// Throws bad_input on each rank whose `mine` is not that of rank 0. what: "version", for the message.

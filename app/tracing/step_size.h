@@ -44,8 +44,8 @@ public:
   /// Of the pass in hand.
   std::int64_t done() const { return done_; }
 
-  /// Calls work(first, count) for the next pixels (or rows) of the pass in hand, which has `size`; at most `most` at a time, and of these for
-  /// what is this rank's of the team (Shares). True when the pass is complete.
+  /// Calls work(first, count) for the next pixels (or rows) of the pass in hand, which has `size`; at most `most` at a time, and of these
+  /// for what is this rank's of the team (Shares). True when the pass is complete.
   template <class Work>
   bool step(const Team& team, std::int64_t size, std::int64_t most, const Work& work)
   {

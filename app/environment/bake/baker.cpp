@@ -82,8 +82,8 @@ Baker::Baker(const BakeTask& task, const compute::Context& context)
 
 void Baker::step()
 {
-  const auto count =
-      static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons_a_step_.amount(world_.context.team())), 1, std::int64_t{task_.photons} - sent_));
+  const auto count = static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(std::llround(photons_a_step_.amount(world_.context.team())), 1, std::int64_t{task_.photons} - sent_));
   const auto number = static_cast<std::uint32_t>(bake_.baked.size());
   // The light of the tables has power_unit W/m^2 as its unit.
   const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);

@@ -168,7 +168,9 @@ void Renderer::step()
 {
   switch (stage_) {
   case Stage::see:
-    if (!see_steps_.step(context_.team(), pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); })) return;
+    if (!see_steps_.step(context_.team(), pixels(), pixels(),
+                         [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); }))
+      return;
     fine_.find_wanted(surroundings_, task_.placement.middle);
     stage_ = Stage::cast;
     return;
@@ -176,7 +178,9 @@ void Renderer::step()
     if (cast(fine_)) stage_ = Stage::shade;
     return;
   case Stage::shade:
-    if (!shade_steps_.step(context_.team(), pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); })) return;
+    if (!shade_steps_.step(context_.team(), pixels(), pixels(),
+                           [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); }))
+      return;
     shaded_ = true;
     if (scatters())
       stage_ = Stage::compile_air;
@@ -188,7 +192,9 @@ void Renderer::step()
     stage_ = Stage::volume;
     return;
   case Stage::volume:
-    if (volume_steps_.step(context_.team(), pixels(), pixels(), [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); })) end_pass();
+    if (volume_steps_.step(context_.team(), pixels(), pixels(),
+                           [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); }))
+      end_pass();
   }
 }
 

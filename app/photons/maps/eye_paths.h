@@ -34,15 +34,16 @@ public:
   bool step(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather)
   {
     if (size_ == 0) return true;
-    return steps_.step(world_.context.team(), size_, static_cast<std::int64_t>(points_.size()), [&](std::uint32_t done, std::uint32_t count) {
-      const std::uint32_t first = begin_ + done;
-      for (std::uint32_t path = 0; path < paths.count; ++path) {
-        look(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster,
-             world_.pixels.on_device, first, count);
-        gather(first, count);
-      }
-      world_.context.finish();
-    });
+    return steps_.step(world_.context.team(), size_, static_cast<std::int64_t>(points_.size()),
+                       [&](std::uint32_t done, std::uint32_t count) {
+                         const std::uint32_t first = begin_ + done;
+                         for (std::uint32_t path = 0; path < paths.count; ++path) {
+                           look(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster,
+                                world_.pixels.on_device, first, count);
+                           gather(first, count);
+                         }
+                         world_.context.finish();
+                       });
   }
 
   /// Stage::warm_up for its kernel.

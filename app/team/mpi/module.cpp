@@ -81,6 +81,8 @@ public:
     });
   }
 
+  Team::Talk talk() const override { return talk_; }
+
   void deal(std::int64_t count, const std::function<void(std::int64_t)>& work) override
   {
     rank_ == 0 ? deal_out(count, work) : take_dealt(work);
@@ -144,10 +146,14 @@ private:
   void in_pieces(std::span<T> items, const Begin& begin)
   {
     constexpr std::size_t most = 1 << 26;
+    talk_.bytes += items.size_bytes();
     for (std::size_t at = 0; at < items.size(); at += most) {
       MPI_Request request = MPI_REQUEST_NULL;
+      const Clock::time_point began = Clock::now();
       begin(items.data() + at, static_cast<int>(std::min(most, items.size() - at)), &request);
       wait(request);
+      talk_.seconds += std::chrono::duration<double>(Clock::now() - began).count();
+      ++talk_.calls;
     }
   }
 
@@ -187,6 +193,7 @@ private:
 
   int rank_ = 0, size_ = 1;
   std::vector<Rank> ranks_;
+  Team::Talk talk_;
 };
 
 } // namespace
