@@ -29,7 +29,7 @@ constexpr const char* new_scene = R"({
 
 constinit const engine::Engine engine{
     .settings = settings_type,
-    .state_version = 9,
+    .state_version = 10,
     .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) -> std::unique_ptr<plan::Plan> {
       return std::make_unique<EnvironmentPlan>(make_plan(preset, scene, bvh));
     },

@@ -35,7 +35,7 @@ public:
   {
     if (render_ && (stop_.passes || !stop_.seconds)) passes_ = stop_.passes.value_or(preset::default_passes);
     if (context.team().told(!plan.bakes)) read();
-    if (!bake_) baker_.emplace(*task_, context_);
+    if (!bake_) baker_.emplace(*task_, context_, wanted_directions());
     if (refines() || bake_) begin_rendering(plan.photons);
   }
 
@@ -144,7 +144,7 @@ public:
         renderer_.reset();
         if (refines()) begin_rendering(std::nullopt);
       }
-      if (!baker_) baker_.emplace(*task_, context_);
+      if (!baker_) baker_.emplace(*task_, context_, wanted_directions());
       baker_->state(state);
     }
     if (renderer_) state_of_picture(state);
@@ -353,6 +353,11 @@ private:
     return begins;
   }
 
+  /// Where there is no light the bake is all, and the preset's passes are directions.
+  std::size_t wanted_directions() const
+  {
+    return !render_ && stop_.passes ? static_cast<std::size_t>(*stop_.passes) : task_->directions.size();
+  }
   std::int64_t directions_done() const { return static_cast<std::int64_t>((bake_ ? *bake_ : baker_->bake()).baked.size()); }
 
   /// Ranks of a team have rank 0's.

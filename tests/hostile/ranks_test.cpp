@@ -121,11 +121,7 @@ TEST_F(Ranks, FindABakeThatOneOfThemHas)
 }
 
 // Facets and their judge, of light in colours.
-TEST_F(Ranks, DesignOneObject)
-{
-  expect_one_picture({"inverse/dispersion", "--passes", "1", "--set", "inverse.facets=[32,32]"},
-                     {2, 3});
-}
+TEST_F(Ranks, DesignOneObject) { expect_one_picture({"inverse/dispersion", "--passes", "1", "--set", "inverse.facets=[32,32]"}, {2, 3}); }
 
 TEST_F(Ranks, GoOnWhereOneWasKilled)
 {

@@ -61,8 +61,9 @@ BakeTask make_task(const preset::Preset& preset)
   return task;
 }
 
-Baker::Baker(const BakeTask& task, const compute::Context& context)
-    : task_(task), world_(tracing::make_world(context, task.caster.scene, task.bvh, task.tables, task.defines, task.seed)),
+Baker::Baker(const BakeTask& task, const compute::Context& context, std::size_t wanted)
+    : task_(task), wanted_(std::min(wanted, task.directions.size())),
+      world_(tracing::make_world(context, task.caster.scene, task.bvh, task.tables, task.defines, task.seed)),
       light_rgb_(compute::Buffer(context, "white light", white_light())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(task.radii.begin(), task.radii.end()))), bake_(task.empty_bake()),
       texels_(bake_.map.texels_of_stored())
@@ -80,20 +81,22 @@ Baker::Baker(const BakeTask& task, const compute::Context& context)
   kernel_ = compute::Program(context, "environment/bake.cl", world_.photon_defines()).kernel("bake");
 }
 
+std::size_t Baker::at_once() const
+{
+  return std::min(static_cast<std::size_t>(world_.context.team().size()), wanted_ - bake_.baked.size());
+}
+
 void Baker::step()
 {
+  const Team& team = world_.context.team();
   const auto count = static_cast<std::uint32_t>(
-      std::clamp<std::int64_t>(std::llround(photons_a_step_.amount(world_.context.team())), 1, std::int64_t{task_.photons} - sent_));
-  const auto number = static_cast<std::uint32_t>(bake_.baked.size());
+      std::clamp<std::int64_t>(std::llround(photons_a_step_.amount(team)), 1, std::int64_t{task_.photons} - sent_));
+  const auto rank = static_cast<std::size_t>(team.rank()), number = bake_.baked.size() + rank;
   // The light of the tables has power_unit W/m^2 as its unit.
   const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);
-  const Team& team = world_.context.team();
-  const auto ranks = static_cast<std::uint32_t>(team.size()), rank = static_cast<std::uint32_t>(team.rank());
-  const std::uint32_t before = count / ranks * rank + std::min(count % ranks, rank), own = count / ranks + (rank < count % ranks ? 1 : 0),
-                      first = sent_ + before;
   photons_a_step_.timed(count, [&] {
-    if (own == 0) return;
-    world_.run_photons(kernel_, own,
+    if (rank >= at_once()) return;
+    world_.run_photons(kernel_, count,
                        {{"targets", world_.buffers.targets},
                         {"light_rgb", light_rgb_},
                         {"radii", radii_},
@@ -102,14 +105,14 @@ void Baker::step()
                         {"sphere_count", static_cast<int>(task_.radii.size())},
                         {"side", task_.resolution},
                         {"direction", tracing::to_float4(task_.directions[number])},
-                        {"number", number},
+                        {"number", static_cast<std::uint32_t>(number)},
                         {"seed", world_.seed},
-                        {"first", first},
-                        {"count", own},
+                        {"first", sent_},
+                        {"count", count},
                         {"scale", scale}});
   });
   sent_ += count;
-  if (sent_ == task_.photons) finish_direction();
+  if (sent_ == task_.photons) finish_directions();
 }
 
 std::optional<double> Baker::seconds_left() const
@@ -118,13 +121,12 @@ std::optional<double> Baker::seconds_left() const
   return *seconds_a_direction_ * (static_cast<double>(task_.directions.size() - bake_.baked.size()) - part());
 }
 
-void Baker::finish_sphere(std::size_t sphere, double scale)
+void Baker::finish_sphere(std::size_t direction, std::size_t sphere, double scale)
 {
-  const std::size_t channels = task_.sums_a_texel() - 3, first = (bake_.baked.size() * task_.radii.size() + sphere) * texels_.size();
+  const std::size_t channels = task_.sums_a_texel() - 3, first = (direction * task_.radii.size() + sphere) * texels_.size();
   std::vector<std::int64_t> sums(task_.sums_a_sphere());
   const std::size_t bytes = sums.size() * sizeof(std::int64_t);
   film_.RawBuffer::read(sums.data(), bytes, sphere * bytes);
-  film_.team().add(sums);
   for_ranges(texels_.size(), 1 << 14, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const std::int64_t* const of_texel = &sums[texels_[i] * task_.sums_a_texel()];
@@ -136,38 +138,67 @@ void Baker::finish_sphere(std::size_t sphere, double scale)
   });
 }
 
-void Baker::finish_direction()
+BakedDirection Baker::finish_direction(std::size_t direction)
 {
   const double size2 = std::pow(task_.caster.size * task_.caster.scene.metres_per_unit, 2);
   const double area_of_quantum = watts_ / (quanta_of_photon * task_.photons * size2); // in size^2
   const double scale = area_of_quantum / bake_.map.solid_angle();
-  bake_.light.resize(bake_.light.size() + bake_.direction_items());
-  bake_.ways.resize(bake_.ways.size() + bake_.direction_texels());
-  for (std::size_t sphere = 0; sphere < task_.radii.size(); ++sphere) finish_sphere(sphere, scale);
-  const std::vector<std::int64_t> energy = energy_.read_sum();
+  for (std::size_t sphere = 0; sphere < task_.radii.size(); ++sphere) finish_sphere(direction, sphere, scale);
+  const std::vector<std::int64_t> energy = energy_.read();
   const auto area = [&](std::size_t outcome) { return area_of_quantum * static_cast<double>(energy[outcome]); };
-  bake_.baked.push_back({area(OUTCOME_EMITTED) - area(OUTCOME_MISSED), area(OUTCOME_ESCAPED), area(OUTCOME_ABSORBED), area(OUTCOME_LOST)});
+  return {area(OUTCOME_EMITTED) - area(OUTCOME_MISSED), area(OUTCOME_ESCAPED), area(OUTCOME_ABSORBED), area(OUTCOME_LOST)};
+}
+
+void Baker::finish_directions()
+{
+  const Team& team = world_.context.team();
+  const std::size_t before = bake_.baked.size(), after = before + at_once(), own = before + static_cast<std::size_t>(team.rank());
+  bake_.light.resize(after * bake_.direction_items());
+  bake_.ways.resize(after * bake_.direction_texels());
+  bake_.baked.resize(after);
+  if (own < after) bake_.baked[own] = finish_direction(own);
+  const auto join = [&](auto& items) { // all ranks get all directions
+    const std::size_t each = items.size() / after;
+    team.join(std::as_writable_bytes(std::span(items).subspan(before * each)));
+  };
+  join(bake_.light);
+  join(bake_.ways);
+  join(bake_.baked);
+  clear();
+  const auto now = std::chrono::steady_clock::now();
+  seconds_a_direction_ = std::chrono::duration<double>(now - std::exchange(began_, now)).count() / static_cast<double>(after - before);
+}
+
+/// Directions in hand begin anew.
+void Baker::clear()
+{
   film_.fill_zero();
   energy_.fill_zero();
   sent_ = 0;
-  const auto now = std::chrono::steady_clock::now();
-  seconds_a_direction_ = std::chrono::duration<double>(now - std::exchange(began_, now)).count();
 }
 
 void Baker::state(tracing::State& state)
 {
+  // What ranks of a team have in hand is done again: any number of them may go on.
+  const bool is_alone = world_.context.team().is_alone();
   std::uint64_t baked = bake_.baked.size();
-  state.value(sent_);
+  std::uint32_t sent = is_alone ? sent_ : 0;
+  state.value(sent);
   state.value(baked);
-  if (state.is_read() && (baked > task_.directions.size() || sent_ >= task_.photons)) throw bad_input("checkpoint", "is of another run");
+  if (state.is_read() && (baked > task_.directions.size() || sent >= task_.photons)) throw bad_input("checkpoint", "is of another run");
   bake_.baked.resize(baked);
   bake_.light.resize(baked * bake_.direction_items());
   bake_.ways.resize(baked * bake_.direction_texels());
   state.items(std::span(bake_.baked));
   state.items(std::span(bake_.light));
   state.items(std::span(bake_.ways));
-  state.buffer(film_);
-  state.buffer(energy_);
+  if (sent > 0) {
+    state.buffer(film_);
+    state.buffer(energy_);
+  }
+  if (!state.is_read()) return;
+  if (sent == 0 || !is_alone) clear();
+  sent_ = is_alone ? sent : 0;
 }
 
 } // namespace nephroid::environment

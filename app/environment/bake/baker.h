@@ -49,10 +49,10 @@ BakeTask make_task(const preset::Preset& preset);
 
 class Baker {
 public:
-  /// task outlives it. Throws failed where the device has not enough memory.
-  Baker(const BakeTask& task, const compute::Context& context);
+  /// task outlives it. wanted: directions that it will be asked for. Throws failed where the device has not enough memory.
+  Baker(const BakeTask& task, const compute::Context& context, std::size_t wanted = ~std::size_t{0});
 
-  /// Photons of the direction in hand; with its last ones the direction is added to the bake.
+  /// Photons of the direction in hand; with its last ones the direction is added to the bake. In a team of a direction for each rank.
   void step();
   bool finished() const { return bake_.baked.size() == task_.directions.size(); }
   /// Of the direction in hand, 0..1.
@@ -60,7 +60,7 @@ public:
   /// Until all is baked, if all goes on as it went with the last direction; nothing before the first is done.
   std::optional<double> seconds_left() const;
   /// Sent so far.
-  std::uint64_t photons() const { return bake_.baked.size() * std::uint64_t{task_.photons} + sent_; }
+  std::uint64_t photons() const { return bake_.baked.size() * std::uint64_t{task_.photons} + at_once() * std::uint64_t{sent_}; }
   const Bake& bake() const { return bake_; }
   /// Once finished.
   Bake take() { return std::move(bake_); }
@@ -68,10 +68,15 @@ public:
   void state(tracing::State& state);
 
 private:
-  void finish_direction();
-  void finish_sphere(std::size_t sphere, double scale);
+  /// Directions in hand: each rank of the team has one.
+  std::size_t at_once() const;
+  void finish_directions();
+  BakedDirection finish_direction(std::size_t direction);
+  void finish_sphere(std::size_t direction, std::size_t sphere, double scale);
+  void clear();
 
   const BakeTask& task_;
+  std::size_t wanted_;
   tracing::World world_;
   double watts_; ///< that all photons of a direction have together
   compute::Buffer<shared::float4> light_rgb_;
@@ -80,7 +85,7 @@ private:
   compute::Kernel kernel_;
   tracing::StepSize photons_a_step_{8192};
   Bake bake_;
-  std::uint32_t sent_ = 0;                                                         ///< of the direction in hand
+  std::uint32_t sent_ = 0;                                                         ///< of each direction in hand
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(); ///< with the direction in hand
   std::optional<double> seconds_a_direction_;                                      ///< that the one before it took
   std::vector<std::size_t> texels_;                                                ///< SphereMap::texels_of_stored
