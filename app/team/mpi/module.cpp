@@ -15,6 +15,7 @@
 #include <chrono>
 #include <csignal>
 #include <exception>
+#include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
 
@@ -25,8 +26,15 @@ using Clock = std::chrono::steady_clock;
 
 struct Rank {
   char host[MPI_MAX_PROCESSOR_NAME] = {};
+  ino_t processes = 0; ///< the name space of its process' number: containers have their own
   pid_t process = 0;
 };
+
+ino_t own_processes()
+{
+  struct stat status {};
+  return ::stat("/proc/self/ns/pid", &status) == 0 ? status.st_ino : 0;
+}
 
 constexpr int no_more = -1; ///< in place of a number that is dealt
 constexpr int ask = 1, answer = 2;
@@ -43,6 +51,7 @@ public:
     Rank own;
     int length = 0;
     MPI_Get_processor_name(own.host, &length);
+    own.processes = own_processes();
     own.process = ::getpid();
     MPI_Allgather(&own, sizeof own, MPI_BYTE, ranks_.data(), sizeof own, MPI_BYTE, MPI_COMM_WORLD);
   }
@@ -59,7 +68,7 @@ public:
   std::string name() const override { return name_of(rank_); }
   int number_on_host() const override
   {
-    return static_cast<int>(std::count_if(ranks_.begin(), ranks_.begin() + rank_, [&](const Rank& other) { return is_here(other); }));
+    return static_cast<int>(std::count_if(ranks_.begin(), ranks_.begin() + rank_, [&](const Rank& other) { return is_on_host(other); }));
   }
 
   void add(std::span<std::int64_t> numbers) override
@@ -95,8 +104,8 @@ public:
   }
 
 private:
-  /// On this machine.
-  bool is_here(const Rank& other) const { return std::string_view(other.host) == ranks_[static_cast<std::size_t>(rank_)].host; }
+  const Rank& own() const { return ranks_[static_cast<std::size_t>(rank_)]; }
+  bool is_on_host(const Rank& other) const { return std::string_view(other.host) == own().host; }
   std::string name_of(int rank) const { return fmt::format("rank {} on {}", rank, ranks_[static_cast<std::size_t>(rank)].host); }
 
   /// Rank 0 deals beside its own work.
@@ -180,12 +189,12 @@ private:
     }
   }
 
-  /// Those on this machine; mpirun itself sees to those on others.
+  /// Those whose processes this one can see; mpirun itself sees to the others.
   void require_others() const
   {
     for (int rank = 0; rank < size_; ++rank) {
       const Rank& other = ranks_[static_cast<std::size_t>(rank)];
-      if (!is_here(other) || ::kill(other.process, 0) == 0) continue;
+      if (!is_on_host(other) || other.processes != own().processes || ::kill(other.process, 0) == 0) continue;
       throw failed(name_of(rank), fmt::format("process {} has died, and {} waits for it", other.process, name_of(rank_)), {},
                    "go on from the last checkpoint with --resume");
     }
