@@ -17,6 +17,13 @@ pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(qrencode REQUIRED IMPORTED_TARGET libqrencode)
 # What draws the charts of a report: a script that becomes part of every page.
 find_file(NEPHROID_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js REQUIRED)
+if(NEPHROID_PYTHON)
+  if(NOT SKBUILD) # Debian's numpy is the system's Python's
+    set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of the module and its tests")
+  endif()
+  find_package(Python 3.10 REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 REQUIRED)
+endif()
 if(NEPHROID_TESTS)
   find_package(GTest REQUIRED)
   find_package(Boost CONFIG REQUIRED) # headers only: Boost.Math

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <system_error>
@@ -202,7 +203,10 @@ void commit_file(const fs::path& temporary, const fs::path& path)
 fs::path program_folder()
 {
   std::error_code ignored;
-  return fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  // Of the program that this is part of; in another one, such as Python, of the library.
+  Dl_info here{};
+  const bool is_library = ::dladdr(reinterpret_cast<void*>(&program_folder), &here) != 0 && fs::path(here.dli_fname).extension() == ".so";
+  return is_library ? fs::weakly_canonical(here.dli_fname, ignored).parent_path() : fs::read_symlink("/proc/self/exe", ignored).parent_path();
 }
 
 bool is_folder(const fs::path& path)

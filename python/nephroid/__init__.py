@@ -1,0 +1,432 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Caustics from Python: presets, runs, their pictures as arrays, and the optics behind them.
+
+    import nephroid
+    preset = nephroid.Preset("first-light").set("scene.camera.resolution", [256, 256]).set("stop.passes", 8)
+    with nephroid.start(preset) as run:
+        run.wait()
+        picture = run.picture()             # height x width x 3, linear sRGB, where the core has it
+        run.save("out/first-light")
+
+What is wrong with a call raises BadInput, a ValueError, with one line that says where, what and what to do; all else that fails raises
+Error, a RuntimeError.
+"""
+from __future__ import annotations
+
+import atexit as _atexit
+import json as _json
+import time as _time
+import weakref as _weakref
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from .core import _nephroid as _core
+from .core._nephroid import BadInput, Error
+
+if TYPE_CHECKING:
+    import os
+
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float32]
+    Doubles = NDArray[np.float64]
+
+__version__: str = _core.version
+__all__ = ["BadInput", "Cluster", "Clusters", "Dispersion", "Error", "Lights", "Preset", "Run", "Spectrum", "clusters", "compare", "devices",
+           "dispersion", "presets", "read_picture", "run", "schema", "segment", "start", "sweep", "wavelengths_nm"]
+
+
+def wavelengths_nm() -> Doubles:
+    """The 401 wavelengths that everything is computed on: 380, 381, ..., 780 nm."""
+    return np.arange(380.0, 781.0)
+
+
+# Presets
+
+
+class Preset:
+    """The whole state of a run. Immutable: set() gives another one.
+
+    name: a file, or the name of a shipped preset ("first-light"); both also without ".json". Throws BadInput as reading does.
+    """
+
+    def __init__(self, name: str | os.PathLike[str], values: Mapping[str, Any] | None = None) -> None:
+        overrides = [f"{path}={_json.dumps(value)}" for path, value in (values or {}).items()]
+        read = _core.read_presets(str(name), overrides)
+        if len(read) > 1:
+            raise BadInput(f"{name}: is a sweep of {len(read)} runs; expected one run; take nephroid.sweep('{name}')")
+        self._core = read[0]
+
+    @classmethod
+    def _of(cls, core: _core.Preset) -> Preset:
+        preset = cls.__new__(cls)
+        preset._core = core
+        return preset
+
+    @classmethod
+    def from_json(cls, text: str, source: str = "preset") -> Preset:
+        """source: what messages call it; files are looked for beside it."""
+        return cls._of(_core.parse_preset(text, source, []))
+
+    @property
+    def name(self) -> str:
+        return self._core.name
+
+    @property
+    def engine(self) -> str:
+        """"spectral", "environment" or "inverse"."""
+        return self._core.engine
+
+    def set(self, path: str, value: Any) -> Preset:
+        """The preset with another value: set("scene.lights.0.power_w", 2). path: as for `nephroid run --set`. value: what JSON can hold."""
+        return self.with_values({path: value})
+
+    def with_values(self, values: Mapping[str, Any]) -> Preset:
+        """The same for several at once: what they are together is checked, not each alone."""
+        overrides = [f"{path}={_json.dumps(value)}" for path, value in values.items()]
+        return self._of(_core.parse_preset(self._core.json(), self._core.source, overrides))
+
+    def get(self, path: str) -> Any:
+        """A value by the same path; the preset as a dict where it is empty."""
+        value: Any = _json.loads(self._core.json())
+        for key in path.split(".") if path else []:
+            try:
+                value = value[int(key)] if isinstance(value, list) else value[key]
+            except (KeyError, IndexError, ValueError, TypeError):
+                raise BadInput(f"{path}: the preset has no such field; expected one of nephroid.schema()") from None
+        return value
+
+    __getitem__ = get
+
+    def to_json(self) -> str:
+        """Complete: every field is there."""
+        return self._core.json()
+
+    def plan(self) -> dict[str, Any]:
+        """What would run, what is left out and why, and the memory that it takes."""
+        plan: dict[str, Any] = _json.loads(_core.plan_json(self._core))
+        return plan
+
+    def __repr__(self) -> str:
+        return f"<nephroid.Preset {self.name!r}, engine {self.engine}>"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Preset) and self.to_json() == other.to_json()
+
+    def __hash__(self) -> int:
+        return hash(self.to_json())
+
+
+def sweep(name: str | os.PathLike[str]) -> list[Preset]:
+    """The runs of a preset with a sweep, in its order; of another preset, that one."""
+    return [Preset._of(core) for core in _core.read_presets(str(name), [])]
+
+
+def presets() -> dict[str, str]:
+    """The shipped presets, each with a line on what it is."""
+    return {name: description for name, description, _ in _core.shipped_presets()}
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of presets: every field, its unit and range."""
+    made: dict[str, Any] = _json.loads(_core.schema())
+    return made
+
+
+def devices() -> list[dict[str, Any]]:
+    """The OpenCL devices."""
+    return _core.devices()
+
+
+# Runs
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """What a pixel shows, by layer: W m^-2 sr^-1 nm^-1, one value for each of wavelengths_nm()."""
+
+    pixel: tuple[int, int]
+    layers: dict[str, Doubles]
+    notes: list[str]
+
+
+_runs: _weakref.WeakSet[Run] = _weakref.WeakSet()
+
+
+class Run:
+    """A run that works in the background; start() gives one. Leaving a `with` block stops it and frees its device.
+
+    Arrays show the core's memory, without a copy, and cannot be written to. They stay as they are, however the run goes on.
+    """
+
+    def __init__(self, preset: Preset, device: str = "") -> None:
+        self.preset = preset
+        self._core = _core.Run(preset._core, device)
+        _runs.add(self)
+
+    # How it goes
+
+    @property
+    def state(self) -> str:
+        """"preparing", "running", "paused", "finished", "stopped" or "failed"."""
+        return self._core.state()
+
+    @property
+    def running(self) -> bool:
+        """Whether more is to come."""
+        return self.state in ("preparing", "running", "paused")
+
+    @property
+    def doing(self) -> str:
+        """What it prepares: "reading bunny.obj"; empty once it works."""
+        return self._core.doing()
+
+    @property
+    def progress(self) -> float:
+        """0..1"""
+        return self._core.progress().fraction
+
+    @property
+    def passes(self) -> int:
+        """Done; for the inverse engine sweeps over the facets."""
+        return self._core.progress().step
+
+    @property
+    def work_seconds(self) -> float:
+        """Of work, without start-up."""
+        return self._core.progress().work_seconds
+
+    @property
+    def error(self) -> float | None:
+        """The newest error that it has measured, in the unit of stop.metric: against the reference, else its own estimate."""
+        column = self._snapshot_or_none()
+        values = column.history().get(column.error_column()) if column else None
+        return float(values[-1]) if values is not None and len(values) else None
+
+    @property
+    def notes(self) -> list[str]:
+        """What the plan and the pictures have to say."""
+        shown = self._snapshot_or_none()
+        return self._core.notes() + (shown.warnings if shown else [])
+
+    def wait(self, seconds: float | None = None) -> Run:
+        """Until it is over, or for so long. Raises what made it fail. Ctrl-C raises KeyboardInterrupt at once, and the run goes on."""
+        end = None if seconds is None else _time.monotonic() + seconds
+        pause = 0.001
+        while self.running and (end is None or _time.monotonic() < end):
+            _time.sleep(pause)
+            pause = min(0.02, 2 * pause)
+        self._core.raise_failure()
+        return self
+
+    def watch(self, every: float = 0.5) -> Iterator[Run]:
+        """for run in start(preset).watch(): ...: once every so many seconds, and once when it is over."""
+        while self.running:
+            self.wait(every)
+            yield self
+
+    def pause(self, paused: bool = True) -> None:
+        self._core.pause(paused)
+
+    def stop(self) -> None:
+        """After the step in hand. What there is can still be looked at and saved."""
+        self._core.stop()
+
+    def close(self) -> None:
+        """Stops it and frees the device's memory. Arrays stay."""
+        self._core.close()
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    # What there is
+
+    def _snapshot_or_none(self) -> _core.Snapshot | None:
+        return self._core.snapshot()
+
+    def _snapshot(self) -> _core.Snapshot:
+        while (shown := self._core.snapshot()) is None:
+            if not self.running:
+                self._core.raise_failure()
+                raise Error("the run was stopped before its first picture; expected one that goes on; start it again")
+            _time.sleep(0.005)
+        return shown
+
+    def picture(self) -> Floats:
+        """The newest picture: height x width x 3, linear sRGB over the preset's white, row 0 at the top. Waits for the first one."""
+        return self._snapshot().picture()
+
+    def layers(self) -> dict[str, Floats]:
+        """The same by kind of light; picture() is their sum."""
+        return self._snapshot().layers()
+
+    def pictures(self) -> dict[str, Floats]:
+        """Those beside it: "receiver_1", "target_1", ... of the inverse engine, "spheres" of the environment's."""
+        return self._snapshot().pictures()
+
+    def error_draw(self) -> Floats | None:
+        """A draw of the picture's own error, whose covariance is the picture's; None where none is kept."""
+        return self._snapshot().error_draw()
+
+    def history(self) -> dict[str, Doubles]:
+        """Error against time: "seconds", "work", ... and a column for each metric."""
+        return self._snapshot().history()
+
+    def curves(self) -> dict[str, dict[str, Doubles]]:
+        """Other figures over the work: "cost" of the inverse engine."""
+        return self._snapshot().curves()
+
+    def figures(self) -> dict[str, dict[str, float]]:
+        """What run.json has, by group: ["energy"]["emitted_w"]."""
+        return self._snapshot().figures()
+
+    def phases(self) -> dict[str, float]:
+        """Seconds by kind of work."""
+        return dict(self._snapshot().phases)
+
+    def spectrum(self, column: int, row: int) -> Spectrum:
+        """Of a pixel. Raises BadInput where the run keeps none; of the spectral engine those with "spectral.relight" true do."""
+        self._core.watch((column, row))
+        for _ in range(2000):
+            made = self._core.spectrum()
+            if made is not None and tuple(made.pixel) == (column, row):
+                if made.why_not:
+                    raise BadInput(f"spectrum: {made.why_not}")
+                return Spectrum((column, row), made.layers(), list(made.notes))
+            _time.sleep(0.005)
+        raise BadInput(f"spectrum: there is none of the pixel {column}, {row}; expected one of the picture, of a run that keeps spectra")
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """The files that `nephroid run` writes, but for a checkpoint."""
+        self._core.save(str(folder))
+
+    def __repr__(self) -> str:
+        return f"<nephroid.Run of {self.preset.name!r}, {self.state}, {100 * self.progress:.0f} %>"
+
+
+@_atexit.register
+def _close_all() -> None:
+    for one in list(_runs):
+        try:
+            one.close()
+        except Error:
+            pass
+
+
+def start(preset: Preset | str, device: str = "") -> Run:
+    """Begins a run and returns at once. device: an index or a part of a name, of devices()."""
+    return Run(preset if isinstance(preset, Preset) else Preset(preset), device)
+
+
+def run(preset: Preset | str, device: str = "") -> Run:
+    """Runs to the preset's own stop. Ctrl-C ends the run."""
+    one = start(preset, device)
+    try:
+        return one.wait()
+    except BaseException:
+        one.close()
+        raise
+
+
+# Optics
+
+
+class Dispersion:
+    """n and k of a material by wavelength."""
+
+    def __init__(self, core: _core.DispersionCurve) -> None:
+        self._core = core
+
+    @property
+    def name(self) -> str:
+        return self._core.name
+
+    @property
+    def range_nm(self) -> tuple[float, float]:
+        """That the data have; beyond it a formula goes on and a table stays as at its end."""
+        low, high = self._core.range_nm()
+        return low, high
+
+    def n(self, nm: ArrayLike) -> Doubles:
+        """The index of refraction, of the same shape as nm; NaN where there is none."""
+        return self._core.sample(np.asarray(nm, dtype=float))[0]
+
+    def k(self, nm: ArrayLike) -> Doubles:
+        """The extinction coefficient."""
+        return self._core.sample(np.asarray(nm, dtype=float))[1]
+
+    def extrapolated(self, nm: ArrayLike) -> NDArray[np.bool_]:
+        """Where nm lies outside of the data."""
+        return self._core.sample(np.asarray(nm, dtype=float))[2].astype(bool)
+
+    def __repr__(self) -> str:
+        return f"<nephroid.Dispersion {self.name!r}>"
+
+
+def dispersion(material: str | os.PathLike[str]) -> Dispersion:
+    """Of a refractiveindex.info file, or of a shipped material: "N-BK7"."""
+    return Dispersion(_core.load_dispersion(str(material)))
+
+
+@dataclass(frozen=True)
+class Cluster:
+    wavelengths_nm: NDArray[np.int32]  #: by falling n
+    n_mean: float
+    theta_deg2: float  #: change of the refraction angle inside, over all angles of incidence
+
+
+@dataclass(frozen=True)
+class Clusters:
+    method: str
+    threshold_deg: float
+    total_theta_deg2: float
+    clusters: list[Cluster]
+
+
+def clusters(material: Dispersion | str | ArrayLike, threshold_deg: float = 0.1, method: str = "optimal") -> Clusters:
+    """Which of the 401 wavelengths may share a path.
+
+    material: a Dispersion, its name, or n for each of wavelengths_nm(). threshold_deg: the change of angle that is allowed in a cluster, in
+    the mean. method: "optimal" or "thesis".
+    """
+    if isinstance(material, str):
+        material = dispersion(material)
+    n = material.n(wavelengths_nm()) if isinstance(material, Dispersion) else np.asarray(material, dtype=float)
+    made = _core.clusters(n, threshold_deg, method)
+    return Clusters(made["method"], made["threshold_deg"], made["total_theta_deg2"], [Cluster(**one) for one in made["clusters"]])
+
+
+@dataclass(frozen=True)
+class Lights:
+    """An environment as directional lights."""
+
+    directions: Doubles  #: [light][3], unit, where the light comes from
+    flux: Doubles  #: [light][3], radiance times solid angle, linear sRGB
+    solid_angles_sr: Doubles
+    rectangles: NDArray[np.int32]  #: [light]: face (+x, -x, +y, -y, +z, -z), x0, y0, x1, y1 in texels of the cube, half open
+    cube_size: int
+
+
+def segment(environment: ArrayLike | str | os.PathLike[str], lights: int, method: str = "variance") -> Lights:
+    """environment: a picture's file, or height x width x 3 texels; the centre column looks along -z, the top row along +y.
+
+    lights: at least 6. method: "variance" or "thesis".
+    """
+    texels = environment if isinstance(environment, np.ndarray) else read_picture(environment)  # type: ignore[arg-type]
+    return Lights(**_core.segment(texels, lights, method))
+
+
+def read_picture(file: str | os.PathLike[str]) -> Floats:
+    """Linear sRGB, height x width x 3: floats as they are, integers decoded."""
+    return _core.read_picture(str(file))
+
+
+def compare(picture: ArrayLike, reference: ArrayLike, mask: ArrayLike | None = None) -> dict[str, float]:
+    """All metrics of `nephroid compare`, of linear sRGB pictures of one size. mask: height x width, pixels that count."""
+    return _core.compare(np.asarray(picture, dtype=np.float32), np.asarray(reference, dtype=np.float32),
+                         None if mask is None else np.asarray(mask, dtype=bool))

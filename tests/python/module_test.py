@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The Python module: arrays without copies, the bits of the command line, an interpreter that goes on, and what must not hang."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import nephroid
+
+SMALL = {"scene.camera.resolution": [40, 30], "spectral.photons_per_pass": 20000}
+
+
+def small(passes=2):
+    return nephroid.Preset("first-light", {**SMALL, "stop": {"passes": passes}})
+
+
+def child(code):
+    """Another interpreter that runs it after the imports above."""
+    return subprocess.Popen([sys.executable, "-c", f"import os, time, nephroid\nSMALL = {SMALL!r}\n{code}"], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True)
+
+
+class Presets(unittest.TestCase):
+    def test_values_go_in_and_out(self):
+        preset = small().set("scene.lights.0.power_w", 7.5)
+        self.assertEqual(preset["scene.lights.0.power_w"], 7.5)
+        self.assertEqual(preset.engine, "spectral")
+        self.assertEqual(nephroid.Preset.from_json(preset.to_json()), preset)
+        self.assertNotEqual(preset, small())
+        self.assertIn("first-light", nephroid.presets())
+        self.assertIn("properties", nephroid.schema())
+        self.assertTrue(any(one["name"] == "photons" and one["runs"] for one in preset.plan()["passes"]))
+
+    def test_what_is_wrong_is_said(self):
+        for call, words in ((lambda: nephroid.Preset("no-such"), "there is no preset 'no-such'"),
+                            (lambda: small().set("scene.camera.fov", 3), "did you mean 'fov_deg'?"),
+                            (lambda: small().set("seed", -1), "expected"),
+                            (lambda: small().get("scene.nothing"), "the preset has no such field"),
+                            (lambda: nephroid.start(small().set("measure.mask", "none.png").set("reference", "none.exr")).wait(), "none")):
+            with self.assertRaises(nephroid.BadInput) as raised:
+                call()
+            self.assertIn(words, str(raised.exception))
+            self.assertIsInstance(raised.exception, ValueError)
+            self.assertEqual(len(str(raised.exception).splitlines()), 1)
+
+    def test_a_sweep_is_several(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "seeds.json")
+            with open(file, "w", encoding="utf-8") as out:
+                out.write('{"parent": "first-light", "sweep": {"seed": [1, 2, 3]}}')
+            self.assertEqual([one["seed"] for one in nephroid.sweep(file)], [1, 2, 3])
+            with self.assertRaisesRegex(nephroid.BadInput, "is a sweep of 3 runs"):
+                nephroid.Preset(file)
+
+
+class Runs(unittest.TestCase):
+    def test_pictures_are_those_of_the_command_line(self):
+        with tempfile.TemporaryDirectory() as folder, nephroid.run(small()) as run:
+            file = os.path.join(folder, "small.json")
+            with open(file, "w", encoding="utf-8") as out:
+                out.write(small().to_json())
+            subprocess.run([os.environ["NEPHROID_PROGRAM"], "run", file, "-o", os.path.join(folder, "line")], check=True, capture_output=True)
+            np.testing.assert_array_equal(run.picture(), nephroid.read_picture(os.path.join(folder, "line", "image.exr")))
+            run.save(os.path.join(folder, "module"))
+            np.testing.assert_array_equal(run.picture(), nephroid.read_picture(os.path.join(folder, "module", "image.exr")))
+            self.assertTrue(os.path.exists(os.path.join(folder, "module", "run.json")))
+
+    def test_arrays_are_the_cores_memory(self):
+        with nephroid.run(small()) as run:
+            picture, again = run.picture(), run.picture()
+            self.assertEqual((picture.shape, picture.dtype), ((30, 40, 3), np.float32))
+            self.assertTrue(np.shares_memory(picture, again))
+            self.assertFalse(picture.flags.owndata)
+            with self.assertRaises(ValueError):
+                picture[0, 0, 0] = 1
+            np.testing.assert_allclose(sum(run.layers().values()), picture, rtol=1e-5, atol=1e-6)
+            before = picture.copy()
+        del run
+        np.testing.assert_array_equal(picture, before)  # a closed run leaves it
+
+    def test_figures(self):
+        with nephroid.run(small(4)) as run:
+            history = run.history()
+            self.assertTrue(np.all(np.diff(history["seconds"]) >= 0))
+            self.assertEqual(len(history["work"]), len(history["estimated_lab_mean"]))
+            self.assertEqual(run.error, history["estimated_lab_mean"][-1])
+            self.assertEqual((run.state, run.progress, run.passes), ("finished", 1.0, 4))
+            self.assertGreater(run.figures()["energy"]["emitted_w"], 0)
+            self.assertGreater(run.phases()["photons"], 0)
+            self.assertTrue(any("N-SF66" in note for note in run.notes))
+
+    def test_spectra(self):
+        with nephroid.run(nephroid.Preset("first-light", {**SMALL, "spectral.relight": True, "stop": {"passes": 2}})) as run:
+            spectrum = run.spectrum(20, 20)
+            self.assertEqual(spectrum.layers["direct"].shape, nephroid.wavelengths_nm().shape)
+            self.assertGreater(spectrum.layers["direct"].sum(), 0)
+            with self.assertRaisesRegex(nephroid.BadInput, "there is none of the pixel 40, 0"):
+                run.spectrum(40, 0)
+        with nephroid.run(small()) as run, self.assertRaisesRegex(nephroid.BadInput, "spectral.relight"):
+            run.spectrum(1, 1)
+
+    def test_the_interpreter_goes_on(self):
+        counted = 0
+        with nephroid.start(small(10)) as run:
+            waiter = threading.Thread(target=run.wait)
+            waiter.start()
+            while run.running:
+                counted += 1
+            waiter.join()
+        self.assertGreater(counted, 1000)
+
+    def test_several_at_once(self):
+        with nephroid.start(small()) as a, nephroid.start(small()) as b:
+            np.testing.assert_array_equal(a.wait().picture(), b.wait().picture())
+
+    def test_an_object(self):
+        preset = nephroid.Preset("inverse/shapes", {"inverse.facets": [32, 32], "stop": {"passes": 1}})
+        with nephroid.run(preset) as run:
+            self.assertIn("receiver_3", run.pictures())
+            self.assertEqual(len(run.curves()["cost"]["cost"]), 2)
+
+
+class Endings(unittest.TestCase):
+    def ends(self, process, seconds=60):
+        try:
+            return process.communicate(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            self.fail("it hangs")
+
+    def test_ctrl_c(self):
+        process = child("""
+run = nephroid.start(nephroid.Preset("first-light", {**SMALL, "stop": {"passes": 100000}}))
+run.picture()
+print("working", flush=True)
+try:
+    run.wait()
+except KeyboardInterrupt:
+    print("interrupted", run.running, flush=True)
+    run.close()
+""")
+        self.assertEqual(process.stdout.readline(), "working\n")
+        begun = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        out, err = self.ends(process)
+        self.assertEqual((out, process.returncode), ("interrupted True\n", 0), err)
+        self.assertLess(time.monotonic() - begun, 10)
+
+    def test_leaving_while_it_works(self):
+        process = child("""
+run = nephroid.start(nephroid.Preset("first-light", {**SMALL, "stop": {"passes": 100000}}))
+run.picture()
+""")
+        out, err = self.ends(process)
+        self.assertEqual((process.returncode, err), (0, ""))
+
+    def test_a_fork(self):
+        process = child("""
+run = nephroid.start(nephroid.Preset("first-light", {**SMALL, "stop": {"passes": 100000}}))
+run.picture()
+pid = os.fork()
+if pid == 0:
+    try:
+        run.picture()
+    except nephroid.Error as error:
+        print(error, flush=True)
+    del run
+    os._exit(7)
+print(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]))
+run.stop()
+print(run.wait().state)
+""")
+        out, err = self.ends(process)
+        self.assertIn("belongs to the process that started it", out)
+        self.assertEqual(out.splitlines()[1:], ["7", "stopped"], err)
+
+
+class Optics(unittest.TestCase):
+    def test_dispersion(self):
+        glass = nephroid.dispersion("N-BK7")
+        self.assertAlmostEqual(float(glass.n(587.5618)), 1.5168, 4)  # Schott's catalogue
+        self.assertEqual(glass.n(np.full((2, 3), 500.0)).shape, (2, 3))
+        self.assertEqual(glass.extrapolated([200, 500]).tolist(), [True, False])
+        with self.assertRaises(nephroid.BadInput):
+            glass.n([-1])
+
+    def test_clusters(self):
+        made = nephroid.clusters("N-SF66", 0.1)
+        self.assertEqual(sorted(np.concatenate([one.wavelengths_nm for one in made.clusters])), list(range(380, 781)))
+        self.assertLessEqual(max(one.theta_deg2 for one in made.clusters), 0.1 * 89)
+        self.assertEqual(len(nephroid.clusters(np.full(401, 1.5)).clusters), 1)
+        for wrong in ([1.5], np.ones((2, 401))):
+            with self.assertRaisesRegex(nephroid.BadInput, "expected 401 values"):
+                nephroid.clusters(wrong)
+
+    def test_an_environment(self):
+        lights = nephroid.segment(np.ones((64, 128, 3)), 24)
+        self.assertAlmostEqual(lights.solid_angles_sr.sum(), 4 * np.pi, 3)
+        np.testing.assert_allclose(lights.flux.sum(axis=0), 4 * np.pi, rtol=1e-3)
+        np.testing.assert_allclose(np.linalg.norm(lights.directions, axis=1), 1, rtol=1e-9)
+        for wrong, words in ((np.ones((4, 4)), "expected an array of height x width x 3"), (-np.ones((4, 8, 3)), "expected radiance")):
+            with self.assertRaisesRegex(nephroid.BadInput, words):
+                nephroid.segment(wrong, 24)
+
+    def test_metrics(self):
+        rng = np.random.default_rng(1)
+        a, b = rng.random((2, 20, 30, 3))
+        mask = np.zeros((20, 30))
+        mask[3, 4] = 1
+        self.assertAlmostEqual(nephroid.compare(a, b)["mse"], np.mean((a - b) ** 2), 6)
+        self.assertAlmostEqual(nephroid.compare(a, b, mask)["mse"], np.mean((a - b)[3, 4] ** 2), 6)
+        self.assertEqual(nephroid.compare(a[::2, ::-1], a[::2, ::-1])["mse"], 0)  # of any strides
+        for call in (lambda: nephroid.compare(a, b[:5]), lambda: nephroid.compare(a[..., 0], b), lambda: nephroid.compare(a, b, mask[:3]),
+                     lambda: nephroid.compare(a * np.nan, b), lambda: nephroid.compare(np.empty((0, 3, 3)), b)):
+            with self.assertRaises(nephroid.BadInput):
+                call()
+
+
+if __name__ == "__main__":
+    unittest.main()
