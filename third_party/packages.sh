@@ -16,9 +16,9 @@ program_packages=(
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
 # The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets,
-# admesh checks meshes that are to be milled, zbar-tools reads QR codes. Open MPI: runs on several machines, which who wants them builds.
+# admesh checks meshes that are to be milled, zbar-tools reads QR codes. Open MPI: runs on several machines, which who wants them builds; pybind11: the Python module.
 test_packages=(libgtest-dev libgmock-dev libboost-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema admesh zbar-tools
-  libopenmpi-dev openmpi-bin)
+  libopenmpi-dev openmpi-bin pybind11-dev python3-dev python3-numpy)
 # What .ci/run checks the sources and fuzzes with. libclang-rt-dev: libFuzzer and the sanitizers of clang.
 check_packages=(clang clang-format clang-tidy libclang-rt-dev shellcheck)
 

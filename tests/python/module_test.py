@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python module: arrays without copies, the bits of the command line, an interpreter that goes on, and what must not hang."""
+import contextlib
+import io
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -97,7 +100,8 @@ class Runs(unittest.TestCase):
 
     def test_spectra(self):
         with nephroid.run(nephroid.Preset("first-light", {**SMALL, "spectral.relight": True, "stop": {"passes": 2}})) as run:
-            spectrum = run.spectrum(20, 20)
+            row, column = np.unravel_index(run.layers()["direct"].sum(axis=2).argmax(), (30, 40))
+            spectrum = run.spectrum(int(column), int(row))
             self.assertEqual(spectrum.layers["direct"].shape, nephroid.wavelengths_nm().shape)
             self.assertGreater(spectrum.layers["direct"].sum(), 0)
             with self.assertRaisesRegex(nephroid.BadInput, "there is none of the pixel 40, 0"):
@@ -179,6 +183,23 @@ print(run.wait().state)
         out, err = self.ends(process)
         self.assertIn("belongs to the process that started it", out)
         self.assertEqual(out.splitlines()[1:], ["7", "stopped"], err)
+
+
+class Page(unittest.TestCase):
+    def test_does_what_it_says(self):
+        page = os.path.join(os.path.dirname(__file__), "..", "..", "docs", "python.md")
+        with open(page, encoding="utf-8") as text:
+            blocks = re.findall(r"```python\n(.*?)```", text.read(), re.S)
+        self.assertGreater(len(blocks), 1)
+        names, before = {}, os.getcwd()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+            os.chdir(folder)
+            try:
+                for block in blocks:
+                    exec(block, names)  # the reader's own session
+                self.assertTrue(os.path.exists("out/first-light/image.exr"))
+            finally:
+                os.chdir(before)
 
 
 class Optics(unittest.TestCase):
