@@ -16,7 +16,8 @@ files() {
 }
 
 "${apt[@]}" update
-"${apt[@]}" install xvfb xauth xdotool imagemagick xdg-utils libglib2.0-bin desktop-file-utils shared-mime-info hicolor-icon-theme >/dev/null
+# adduser: apt of Debian 13 never takes it away again.
+"${apt[@]}" install adduser xvfb xauth xdotool imagemagick xdg-utils libglib2.0-bin desktop-file-utils shared-mime-info hicolor-icon-theme >/dev/null
 work=$(mktemp -d)
 cd "$work"
 files >before
