@@ -17,7 +17,7 @@ pkg_check_modules(OpenImageIO REQUIRED IMPORTED_TARGET OpenImageIO)
 pkg_check_modules(qrencode REQUIRED IMPORTED_TARGET libqrencode)
 # What draws the charts of a report: a script that becomes part of every page.
 find_file(NEPHROID_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js REQUIRED)
-if(NEPHROID_PYTHON)
+if(NEPHROID_PYTHON_MODULE)
   if(NOT SKBUILD) # Debian's numpy is the system's Python's
     set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python of the module and its tests")
   endif()

@@ -15,6 +15,8 @@ program_packages=(
   glmark2-data fonts-dejavu-core libjs-chart.js)
 # The window.
 window_packages=(libglfw3-dev libgl-dev)
+# What cpack makes a package with: a library's package by dpkg-shlibdeps, and what is a program by file.
+packaging_packages=(dpkg-dev file)
 # The tests. xvfb and xauth give the window a display where there is none, xdotool moves its mouse; python3-jsonschema validates presets,
 # admesh checks meshes that are to be milled, zbar-tools reads QR codes. Open MPI: runs on several machines, which who wants them builds; pybind11: the Python module.
 test_packages=(libgtest-dev libgmock-dev libboost-dev libbenchmark-dev xvfb xauth xdotool python3-jsonschema admesh zbar-tools

@@ -42,7 +42,7 @@ void write_order(const std::vector<Target>& targets)
 std::vector<Target> targets_of(const RunOptions& options)
 {
   std::vector<preset::Preset> presets = preset::read_presets(options.preset, options.overrides);
-  const std::string stem = fs::path(options.preset).stem().string();
+  const std::string stem = preset::stem_of(options.preset);
   const fs::path folder = options.folder.empty() ? fs::path("out") / stem : options.folder;
   std::vector<Target> targets;
   for (preset::Preset& preset : presets) {

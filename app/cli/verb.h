@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp and manual.cpp only: each
-// file that includes it takes seconds more to compile.
+// A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp, manual.cpp and
+// completions.cpp only: each file that includes it takes seconds more to compile.
 #pragma once
 #include <algorithm>
 #include <charconv>
@@ -96,6 +96,7 @@ void add_presets(CLI::App& program, Session& session);
 void add_devices(CLI::App& program, Session& session);
 void add_check(CLI::App& program, Session& session);
 void add_manual(CLI::App& program, Session& session);
+void add_completions(CLI::App& program, Session& session);
 void add_schema(CLI::App& program, Session& session);
 void add_version(CLI::App& program, Session& session);
 

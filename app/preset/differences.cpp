@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "preset/describe.h"
 #include "preset/document.h"
+#include "preset/read.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>
@@ -166,7 +167,7 @@ Json child_of(const Preset& preset, const std::string& parent, const fs::path& f
   const Read base = read_without_sweep(Json{{"parent", parent}}.dump(), file);
   Json child{{"parent", parent}};
   // The parent's own name and description are not inherited; without a name it is the file's.
-  if (preset.name != file.stem().string()) child["name"] = preset.name;
+  if (preset.name != stem_of(file)) child["name"] = preset.name;
   if (!preset.description.empty()) child["description"] = preset.description;
   if (base.sweep != sweep) child["sweep"] = sweep;
   Json before = as_json(value_of(base.preset)), after = as_json(value_of(preset));

@@ -4,6 +4,7 @@
 #include "base/nearest.h"
 #include "preset/describe.h"
 #include "preset/document.h"
+#include "preset/read.h"
 #include "preset/walks.h"
 
 #include <fmt/format.h>
@@ -117,6 +118,12 @@ bool same_folder(const fs::path& a, const fs::path& b)
 }
 
 } // namespace
+
+std::string stem_of(const fs::path& file)
+{
+  const fs::path stem = file.stem();
+  return (stem.extension() == ".nephroid" ? stem.stem() : stem).string();
+}
 
 fs::path find_preset(const std::string& name, const fs::path& folder, const Place& where)
 {

@@ -261,7 +261,7 @@ std::string base_name(const Document& document)
 {
   const auto own = document.value().find("name");
   const bool is_named = own != document.value().end() && own->is_string();
-  return is_named ? own->get<std::string>() : std::filesystem::path(document.origins().main().place.name).stem().string();
+  return is_named ? own->get<std::string>() : stem_of(document.origins().main().place.name);
 }
 
 Preset finish(const SweptDocument& run)

@@ -4,6 +4,7 @@
 #include "base/place.h"
 #include "preset/preset.h"
 
+#include <filesystem>
 #include <functional>
 
 namespace nephroid::preset {
@@ -11,6 +12,8 @@ namespace nephroid::preset {
 /// "a.b.0.c=value": value as JSON, else as a bare string.
 using Overrides = std::vector<std::string>;
 
+/// A preset file's name without its folder and ending, which is ".json" or ".nephroid.json".
+std::string stem_of(const std::filesystem::path& file);
 /// Reads a preset file: "parent" chain, overrides, strict check of every key, type and range, sweep.
 /// name: a path, or the name of a shipped preset ("first-light", "spectral/prism"), each also without ".json". One preset without
 /// "sweep", else one a run, each with its own name ("NAME,seed=2"), the first swept key outermost.

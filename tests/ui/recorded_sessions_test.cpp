@@ -54,7 +54,7 @@ TEST_F(SpectralSession, FromTheStartPageToASavedPicture)
   session.window().settle(10);
   session.shot("Saving asks for a name: the preset is a shipped one");
   session.key("Return");
-  session.until_there("first-light-edited.json");
+  session.until_there("first-light-edited.nephroid.json");
   session.key("e", {"ctrl"});
   session.key("Return");
   session.until_there("first-light-edited.png");
@@ -62,7 +62,7 @@ TEST_F(SpectralSession, FromTheStartPageToASavedPicture)
   const Session left = session.quit();
 
   const preset::Preset shipped = preset::read_preset("first-light");
-  const preset::Preset saved = preset::read_preset((session.saved() / "first-light-edited.json").string());
+  const preset::Preset saved = preset::read_preset((session.saved() / "first-light-edited.nephroid.json").string());
   const std::vector<ControlPoint> points = glass(saved);
   ASSERT_EQ(points.size(), fitted.size());
   for (std::size_t i = 0; i < points.size(); ++i) {

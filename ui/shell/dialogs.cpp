@@ -40,7 +40,7 @@ const DialogKind& kind_of_dialog(Question question)
                                      {"Open the history of a run", "", {".csv"}},
                                      {"Open pictures", "", {".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg", ".tif", ".tiff"}},
                                      {"Open a map of the environment", "", {".hdr", ".exr"}},
-                                     {"Save the preset as", "-edited.json", {".json"}},
+                                     {"Save the preset as", "-edited.nephroid.json", {".json"}},
                                      {"Save the picture as", ".png", {".png", ".exr"}},
                                      {"Unsaved changes", "", {}},
                                      {"", "", {}},

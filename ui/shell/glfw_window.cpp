@@ -39,6 +39,7 @@ GLFWwindow* open_glfw(const std::string& title, std::array<int, 2> size)
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  for (const int name : {GLFW_X11_CLASS_NAME, GLFW_X11_INSTANCE_NAME}) glfwWindowHintString(name, "nephroid"); // as the desktop file says
   GLFWwindow* window = glfwCreateWindow(size[0], size[1], title.c_str(), nullptr, nullptr);
   if (window) return window;
   const Error error = no_window("no OpenGL 3");

@@ -7,6 +7,7 @@
 #include "engine/engine.h"
 #include "image/image.h"
 #include "preset/differences.h"
+#include "preset/read.h"
 #include "run/run.h"
 #include "ui/state/tone.h"
 
@@ -128,7 +129,7 @@ std::string parent_to_keep(const preset::Preset& preset)
 
 std::string proposed_name(const preset::Preset* preset, const std::string& ending)
 {
-  return (!preset || preset->source.empty() ? "untitled" : fs::path(preset->source).stem().string()) + ending;
+  return (!preset || preset->source.empty() ? "untitled" : preset::stem_of(preset->source)) + ending;
 }
 
 fs::path free_name(const fs::path& path)

@@ -2,6 +2,7 @@
 #include "ui/state/run_in_hand.h"
 
 #include "engine/engine.h"
+#include "preset/read.h"
 
 #include <filesystem>
 
@@ -46,7 +47,7 @@ void RunInHand::take_over(const UndoStack& edits)
   messages_.dismiss(failure_message_);
   preset_ = std::make_shared<const preset::Preset>(edits.current());
   const std::string edit = edits.undo_label();
-  name_ = preset_->name.empty() ? std::filesystem::path(preset_->source).stem().string() : preset_->name;
+  name_ = preset_->name.empty() ? preset::stem_of(preset_->source) : preset_->name;
   if (!edit.empty()) name_ += ": " + edit;
 }
 
