@@ -7,6 +7,7 @@
 #include "optics/spectrum.h"
 #include "run/import/description.h"
 #include "run/import/gltf_scene.h"
+#include "run/import/mitsuba_names.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -24,42 +25,7 @@ namespace {
 
 using pugi::xml_node;
 
-/// Mitsuba's own figures.
-const std::map<std::string, double> iors{{"vacuum", 1},
-                                         {"air", 1.000277},
-                                         {"water", 1.3330},
-                                         {"water ice", 1.31},
-                                         {"fused quartz", 1.458},
-                                         {"pyrex", 1.470},
-                                         {"acrylic glass", 1.49},
-                                         {"polypropylene", 1.49},
-                                         {"bk7", 1.5046},
-                                         {"sodium chloride", 1.544},
-                                         {"amber", 1.55},
-                                         {"pet", 1.5750},
-                                         {"diamond", 2.419},
-                                         {"acetone", 1.36},
-                                         {"ethanol", 1.361},
-                                         {"benzene", 1.501},
-                                         {"silicone oil", 1.52045},
-                                         {"glycerol", 1.4729},
-                                         {"hydrogen", 1.000132},
-                                         {"helium", 1.000036},
-                                         {"carbon dioxide", 1.00045},
-                                         {"bromine", 1.661},
-                                         {"carbon tetrachloride", 1.461}};
 constexpr int max_files = 100;
-
-std::string snake(const std::string& name)
-{
-  std::string text;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool upper = name[i] >= 'A' && name[i] <= 'Z';
-    if (upper && i > 0 && name[i - 1] >= 'a' && name[i - 1] <= 'z') text += '_';
-    text += upper ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
-  }
-  return text;
-}
 
 class Mitsuba {
 public:
@@ -67,8 +33,7 @@ public:
   {
     d_.source = file;
     d_.unit = optics::to_xyz(optics::constant_spectrum(1))[1]; // spectra are per nanometre: a radiance of 1 is this bright
-    const xml_node scene = load(file);
-    read_all(scene);
+    read_all(load(file));
   }
   Description take() { return std::move(d_); }
 
@@ -165,7 +130,7 @@ private:
   xml_node child(xml_node parent, const std::string& name) const
   {
     for (const xml_node node : parent.children())
-      if (snake(node.attribute("name").value()) == name) return node;
+      if (mitsuba_name(node.attribute("name").value()) == name) return node;
     return {};
   }
   double number(xml_node parent, const std::string& name, double standard) const
@@ -199,7 +164,7 @@ private:
   {
     glm::dmat4 all(1);
     for (const xml_node step : child(parent, "to_world").children()) {
-      const std::string kind = snake(step.name());
+      const std::string kind = mitsuba_name(step.name());
       glm::dmat4 m(1);
       if (kind == "translate")
         m = glm::translate(m, vector_of(step, "value", 0));
@@ -239,9 +204,6 @@ private:
         defaults_.try_emplace(node.attribute("name").value(), attribute(node, "value"));
       else if (kind == "include")
         read_all(load(beside(node, attribute(node, "filename"))));
-      else if (kind == "bsdf")
-        for (const xml_node inner : node.children("bsdf")) // those of adapters may have names, too
-          if (inner.attribute("id")) ids_[attribute(inner, "id")] = inner;
       if (kind == "sensor")
         add_camera(node);
       else if (kind == "shape")
@@ -344,7 +306,7 @@ private:
   {
     xml_node node = bsdf_of(shape);
     for (int depth = 0; node; ++depth) {
-      const std::string type = snake(attribute(node, "type"));
+      const std::string type = mitsuba_name(attribute(node, "type"));
       if (type != "twosided" && type != "bumpmap" && type != "normalmap" && type != "mask" && type != "blendbsdf") break;
       if (type != "twosided") d_.note(at(node), "the " + type + " is left out: the material in it is taken");
       if (depth > 16) throw bad_input(at(node), "materials go round in a circle");
@@ -356,7 +318,7 @@ private:
     preset::Material& made = d_.materials[key];
     made.reflectance.value = 0.5;
     if (!node) return key;
-    const std::string type = snake(attribute(node, "type"));
+    const std::string type = mitsuba_name(attribute(node, "type"));
     const auto reflect = [&](const char* name, double standard) {
       const glm::dvec3 c = colour(node, name, glm::dvec3(standard));
       made.reflectance = reflectance_of({c.x, c.y, c.z});
@@ -386,7 +348,7 @@ private:
   {
     const xml_node given = child(node, name);
     const std::string value = given ? attribute(given, "value") : standard;
-    if (const auto known = iors.find(value); known != iors.end()) return known->second;
+    if (const auto known = mitsuba_iors().find(value); known != mitsuba_iors().end()) return known->second;
     const double n = number_of(given, "value", 1);
     if (!(n > 0)) throw bad_input(at(given), "an index of refraction is above 0");
     return n;
