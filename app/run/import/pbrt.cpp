@@ -27,8 +27,8 @@ constexpr std::size_t max_shapes = 1000000; ///< instances of instances multiply
 /// What is done without: it says how to render, not what.
 const std::set<std::string> about_rendering{"Sampler",     "Integrator", "SurfaceIntegrator", "VolumeIntegrator", "PixelFilter",
                                             "Accelerator", "Renderer",   "ColorSpace",        "Option",           "Attribute"};
-/// n at 587.6 nm, of the glasses that PBRT names.
-const std::map<std::string, double> glasses{{"glass-BK7", 1.5168},   {"glass-BAF10", 1.6700}, {"glass-FK51A", 1.4866},
+/// n at 587.6 nm, of the named_glasses that PBRT names.
+const std::map<std::string, double> named_glasses{{"glass-BK7", 1.5168},   {"glass-BAF10", 1.6700}, {"glass-FK51A", 1.4866},
                                             {"glass-LASF9", 1.8503}, {"glass-F5", 1.6034},    {"glass-SF5", 1.6727},
                                             {"glass-SF10", 1.7283},  {"glass-SF11", 1.7847}};
 
@@ -245,8 +245,8 @@ private:
       const char* name = p.find("eta") ? "eta" : "index";
       const PbrtParameter* eta = p.find(name);
       if (eta && eta->type == "spectrum" && !eta->values.empty()) {
-        const auto glass = glasses.find(eta->values[0]);
-        made.dispersion.n = glass == glasses.end() ? 1.5 : glass->second;
+        const auto glass = named_glasses.find(eta->values[0]);
+        made.dispersion.n = glass == named_glasses.end() ? 1.5 : glass->second;
         d_.note(eta->where, fmt::format("the spectrum of eta is left out: n = {} takes its place", made.dispersion.n));
       } else
         made.dispersion.n = p.number(name, 1.5);

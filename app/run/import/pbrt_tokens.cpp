@@ -13,11 +13,11 @@ namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int max_depth = 16;
+constexpr int max_includes = 16;
 
 void read_into(std::vector<PbrtToken>& tokens, const fs::path& file, int depth)
 {
-  if (depth > max_depth) throw bad_input(file.string(), fmt::format("files include each other more than {} deep", max_depth));
+  if (depth > max_includes) throw bad_input(file.string(), fmt::format("files include each other more than {} deep", max_includes));
   const std::string text = read_file(file);
   std::size_t line = 1;
   for (std::size_t i = 0; i < text.size();) {
