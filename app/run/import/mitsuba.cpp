@@ -61,8 +61,9 @@ private:
 
   static std::size_t line_of(const Document& document, std::ptrdiff_t offset)
   {
-    const auto end = std::min(static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0)), document.text.size());
-    return 1 + static_cast<std::size_t>(std::count(document.text.begin(), document.text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+    const auto end = static_cast<std::size_t>(std::max<std::ptrdiff_t>(offset, 0));
+    const std::string before = document.text.substr(0, end);
+    return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
   }
 
   const Document& document_of(xml_node node) const
@@ -327,8 +328,7 @@ private:
       made.type = preset::Material::Type::dielectric;
       made.dispersion.n = ior(node, "int_ior", "bk7") / ior(node, "ext_ior", "air");
       if (made.dispersion.n < 0.01 || made.dispersion.n > 100) throw bad_input(at(node), "its index of refraction is out of range");
-      if (type == "roughdielectric") d_.note(at(node), "roughness is left out: the glass is polished");
-      if (type == "thindielectric") d_.note(at(node), "a thin film is solid glass here");
+      if (type != "dielectric") d_.note(at(node), "a film or roughness is left out: the glass is solid and polished");
     } else if (type == "conductor" || type == "roughconductor") {
       made.type = preset::Material::Type::mirror;
       reflect("specular_reflectance", 1);
@@ -349,9 +349,8 @@ private:
     const xml_node given = child(node, name);
     const std::string value = given ? attribute(given, "value") : standard;
     if (const auto known = mitsuba_iors().find(value); known != mitsuba_iors().end()) return known->second;
-    const double n = number_of(given, "value", 1);
-    if (!(n > 0)) throw bad_input(at(given), "an index of refraction is above 0");
-    return n;
+    if (const double n = number_of(given, "value", 1); n > 0) return n;
+    throw bad_input(at(given), "an index of refraction is above 0");
   }
 
   void add_shape(xml_node node)
