@@ -24,9 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 using pugi::xml_node;
-
 constexpr int max_files = 100;
-
 class Mitsuba {
 public:
   explicit Mitsuba(const fs::path& file)
