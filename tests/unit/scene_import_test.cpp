@@ -84,7 +84,7 @@ TEST_F(SceneImport, WhatIsLeftOutIsSaidWithItsLine)
   imported(text, "in.xml");
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("in.xml:11: the shape hair is left out")));
   imported(pbrt + "Shape \"curve\"\nLightSource \"goniometric\"\n", "in.pbrt");
-  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("in.pbrt:12: the shape curve"), HasSubstr("in.pbrt:13: the light goniometric")));
+  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("in.pbrt:13: the shape curve"), HasSubstr("in.pbrt:14: the light goniometric")));
 }
 
 TEST_F(SceneImport, BrokenFilesAreRefusedAtTheirLine)
