@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `nephroid import`: a glTF scene as a preset.
+// `nephroid import`: a glTF, Mitsuba or PBRT scene as a preset.
 #include "run/import/import.h"
 #include "base/files.h"
 #include "cli/verb.h"
@@ -22,7 +22,7 @@ void import_scene(const ImportOptions& options)
   const fs::path preset = options.output.empty() ? fs::path(options.file.filename()).replace_extension(".json") : options.output;
   if (!options.replace && is_there(preset))
     throw bad_input(preset.string(), "is there already", {}, "choose another file with -o, or --replace it");
-  const run::Imported imported = run::import_gltf(options.file, preset);
+  const run::Imported imported = run::import_scene(options.file, preset);
   for (const std::string& note : imported.notes) fmt::print(stderr, "note: {}\n", note);
   fmt::print("{}\n", imported.preset.string());
 }
@@ -32,9 +32,9 @@ void import_scene(const ImportOptions& options)
 void add_import(CLI::App& program, Session&)
 {
   const auto options = std::make_shared<ImportOptions>();
-  Verb verb(program, "import", "A preset from a glTF scene: meshes, camera, lights, materials",
+  Verb verb(program, "import", "A preset from a glTF, Mitsuba or PBRT scene: meshes, camera, lights, materials",
             {{"nephroid import scene.gltf", "writes scene.json"}, {"nephroid run scene.json --seconds 10", ""}},
-            "Takes .gltf and .glb. Meshes become PLY files in a folder beside the preset. What has no counterpart is left out and said\n"
+            "Takes .gltf, .glb, .xml of Mitsuba and .pbrt. Meshes become PLY files in a folder beside the preset. What has no counterpart is left out and said\n"
             "on standard error. Standard output has the preset's file: nephroid run takes it.");
   verb.option("FILE", options->file, {.says = "The scene", .required = true});
   verb.option("-o,--output", options->output,

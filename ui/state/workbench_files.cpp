@@ -109,7 +109,7 @@ void Workbench::import_scene(const std::filesystem::path& file)
       writes_, {"importing " + file.string(), TaskKind::write},
       [file] {
         const std::string stem = file.stem().string();
-        return run::import_gltf(file, free_name(file.parent_path() / (stem + "-scene")) / (stem + ".json"));
+        return run::import_scene(file, free_name(file.parent_path() / (stem + "-scene")) / (stem + ".json"));
       },
       [this](const run::Imported& scene) {
         messages_.note(scene.summary());

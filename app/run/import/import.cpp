@@ -2,37 +2,24 @@
 #include "run/import/import.h"
 
 #include "base/counted.h"
-#include "base/files.h"
-#include "preset/read.h"
+#include "base/lower_case.h"
+#include "run/import/description.h"
 #include "run/import/gltf_scene.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
-#include <system_error>
 
 namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {
 
 using std::numbers::pi;
-
-/// A text of the file as the name of something: one line, without what parts paths.
-std::string name_of(const std::string& text, const std::string& otherwise)
-{
-  std::string name;
-  for (const char c : text.substr(0, 60)) {
-    const auto byte = static_cast<unsigned char>(c);
-    name += std::isalnum(byte) || c == '-' || c == '_' || c == ' ' ? c : '-';
-  }
-  return name.empty() ? otherwise : name;
-}
 
 /// The name, with a number behind it where it is taken.
 std::string unique(const std::string& name, std::set<std::string>& taken)
@@ -61,20 +48,7 @@ public:
     expose();
   }
 
-  /// Writes the meshes, then the preset that names them.
-  Imported write()
-  {
-    const std::string text = preset::to_json(made_);
-    preset::parse_preset(text, preset_file_.string()); // what cannot be read again is not written
-    const fs::path folder = preset_file_.parent_path() / (preset_file_.stem().string() + "-meshes");
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw failed(folder.string(), "cannot be made: " + error.message(), {}, "choose another folder with -o");
-    for (const auto& [name, glass] : glasses_) write_file_whole(folder / name, glass);
-    for (const auto& [name, mesh] : files_) write_file_whole(folder / name, [&mesh = mesh](ByteSink& to) { scene::write_ply(mesh, to); });
-    write_file_whole(preset_file_, text);
-    return {preset_file_, made_.scene.objects.size(), files_.size(), made_.scene.lights.size(), notes_};
-  }
+  Imported write() { return write_imported(made_, preset_file_, files_, glasses_, notes_); }
 
 private:
   void note(std::string text)
@@ -246,6 +220,14 @@ std::string Imported::summary() const
                                  counted(lights, "light"));
   for (const std::string& note : notes) text += "; " + note;
   return text;
+}
+
+Imported import_scene(const fs::path& file, const fs::path& preset)
+{
+  const std::string kind = lower_case(file.extension().string());
+  if (kind == ".xml") return write_described(read_mitsuba(file), preset);
+  if (kind == ".pbrt") return write_described(read_pbrt(file), preset);
+  return import_gltf(file, preset);
 }
 
 Imported import_gltf(const fs::path& file, const fs::path& preset)

@@ -25,4 +25,7 @@ struct Imported {
 /// circle, a buffer that is missing or too short, no triangle at all.
 Imported import_gltf(const std::filesystem::path& file, const std::filesystem::path& preset);
 
+/// The same of a Mitsuba scene (.xml), a PBRT scene (.pbrt), or else glTF.
+Imported import_scene(const std::filesystem::path& file, const std::filesystem::path& preset);
+
 } // namespace nephroid::run

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A PBRT scene, imported. What comes out is a preset that can be read.
+#include "preset/read.h"
+#include "run/import/import.h"
+#include "tests/fuzz/harness.h"
+
+namespace nephroid::fuzz {
+
+void read(std::string_view input)
+{
+  const fs::path preset = folder() / "imported.json";
+  run::import_scene(write("scene.pbrt", input), preset);
+  try {
+    preset::read_preset(preset.string());
+  } catch (const Error& refusal) {
+    finding("an imported scene cannot be read: " + refusal.line());
+  }
+}
+
+std::vector<std::string> seeds()
+{
+  return {R"(LookAt 1 3 6 0 0 0 0 1 0 Camera "perspective" "float fov" 45 WorldBegin
+LightSource "spot" "rgb I" [ 1 2 3 ] "float coneangle" 30
+MakeNamedMaterial "g" "string type" "dielectric" "float eta" 1.5
+AttributeBegin NamedMaterial "g" Rotate 30 0 1 0 Shape "sphere" "float radius" 2 AttributeEnd
+ObjectBegin "o" Shape "trianglemesh" "point3 P" [ 0 0 0 1 0 0 0 1 0 ] "integer indices" [ 0 1 2 ] ObjectEnd
+Translate 1 2 3 ObjectInstance "o" AreaLightSource "diffuse" "rgb L" [ 1 1 1 ] Shape "disk")"};
+}
+
+} // namespace nephroid::fuzz

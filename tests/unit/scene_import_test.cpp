@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Importing Mitsuba and PBRT scenes: one scene written in both, and what becomes of it against values worked out in comments; what is left
+// out; files that are broken.
+#include "preset/read.h"
+#include "run/import/import.h"
+#include "tests/support/test.h"
+
+#include <numbers>
+
+namespace nephroid::scene_import_test {
+
+using std::numbers::pi;
+
+const std::string mitsuba = R"(<scene version="3.0.0">
+<default name="size" value="4"/>
+<sensor type="perspective"><string name="fov_axis" value="x"/><float name="fov" value="90"/>
+<transform name="to_world"><lookat origin="1,3,6" target="1,3,0" up="0,1,0"/></transform>
+<film type="hdrfilm"><integer name="width" value="200"/><integer name="height" value="100"/></film></sensor>
+<bsdf type="twosided" id="grey"><bsdf type="diffuse"><rgb name="reflectance" value="0.25"/></bsdf></bsdf>
+<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="-90"/><scale value="$size"/></transform><ref id="grey"/></shape>
+<shape type="sphere"><point name="center" x="2" y="1" z="0"/><bsdf type="dielectric"><float name="int_ior" value="1.5"/>
+<string name="ext_ior" value="vacuum"/></bsdf></shape>
+<emitter type="point"><point name="position" x="-2" y="3" z="1"/><rgb name="intensity" value="10"/></emitter>
+</scene>)";
+
+/// The same, left-handed: x is turned round. fov is that of the shorter edge: 2 atan(1/2) = 53.13010235 degrees.
+const std::string pbrt = R"(Film "rgb" "integer xresolution" 200 "integer yresolution" 100
+LookAt -1 3 6  -1 3 0  0 1 0
+Camera "perspective" "float fov" [ 53.13010235 ]
+WorldBegin
+Material "diffuse" "rgb reflectance" [ 0.25 0.25 0.25 ]
+Shape "trianglemesh" "point3 P" [ -4 0 4  4 0 4  4 0 -4  -4 0 -4 ] "integer indices" [ 0 1 2 0 2 3 ]
+AttributeBegin
+  Translate -2 1 0
+  Material "dielectric" "float eta" 1.5
+  Shape "sphere"
+AttributeEnd
+LightSource "point" "point3 from" [ 2 3 1 ] "rgb I" [ 10 10 10 ]
+)";
+
+class SceneImport : public testing::Test {
+protected:
+  preset::Preset imported(const std::string& text, const std::string& name)
+  {
+    made = run::import_scene(folder.write(name, text), folder.path() / "out.json");
+    return preset::read_preset(made.preset.string());
+  }
+  std::string refusal(const std::string& text, const std::string& name)
+  {
+    const std::string line = test::refusal_of([&] { imported(text, name); });
+    EXPECT_FALSE(fs::exists(folder.path() / "out.json"));
+    return line;
+  }
+  test::TemporaryFolder folder;
+  run::Imported made;
+};
+
+TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset)
+{
+  for (const bool from_mitsuba : {true, false}) {
+    SCOPED_TRACE(from_mitsuba);
+    const preset::Preset p = from_mitsuba ? imported(mitsuba, "in.xml") : imported(pbrt, "in.pbrt");
+    EXPECT_TRUE(made.notes.empty()) << made.summary();
+    EXPECT_THAT(p.scene.camera.position, ElementsAre(DoubleNear(1, 1e-9), DoubleNear(3, 1e-9), DoubleNear(6, 1e-9)));
+    EXPECT_NEAR(p.scene.camera.target[0], 1, 1e-9);
+    EXPECT_NEAR(p.scene.camera.fov_deg, 53.13010235, 1e-6);
+    EXPECT_EQ(p.scene.camera.resolution, (std::array{200, 100}));
+    ASSERT_EQ(p.scene.objects.size(), 2u);
+    EXPECT_EQ(p.scene.materials.at(p.scene.objects[0].material).reflectance.value, 0.25);
+    EXPECT_NEAR(p.scene.materials.at(p.scene.objects[1].material).dispersion.n, 1.5, 1e-12);
+    EXPECT_NEAR(p.scene.objects[1].transform.translate[0], 2, 1e-9);
+    ASSERT_EQ(p.scene.lights.size(), 1u);
+    EXPECT_NEAR(p.scene.lights[0].position[0], -2, 1e-9);
+    // 10 of the luminance that is white, in every direction; D65 has about 683 / 200 watts to a luminous watt.
+    EXPECT_NEAR(p.scene.lights[0].power_w / p.white, 4 * pi * 10 * 683 / 200, 0.03 * 4 * pi * 10 * 683 / 200);
+    fs::remove(folder.path() / "out.json");
+  }
+}
+
+TEST_F(SceneImport, WhatIsLeftOutIsSaidWithItsLine)
+{
+  std::string text = mitsuba;
+  text.replace(text.find("</scene>"), 8, "<shape type=\"hair\"/>\n</scene>");
+  imported(text, "in.xml");
+  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("in.xml:11: the shape hair is left out")));
+  imported(pbrt + "Shape \"curve\"\nLightSource \"goniometric\"\n", "in.pbrt");
+  EXPECT_THAT(made.notes, ElementsAre(HasSubstr("in.pbrt:13: the shape curve"), HasSubstr("in.pbrt:14: the light goniometric")));
+}
+
+TEST_F(SceneImport, BrokenFilesAreRefusedAtTheirLine)
+{
+  EXPECT_THAT(refusal("<scene>\n<shape type=\"sphere\">\n</scene>", "in.xml"), HasSubstr("in.xml:3: its XML is broken"));
+  EXPECT_THAT(refusal("<scene>\n<shape type=\"$no\"/></scene>", "in.xml"), HasSubstr("in.xml:2: $no has no value"));
+  EXPECT_THAT(refusal("WorldBegin\nAttributeEnd", "in.pbrt"), HasSubstr("in.pbrt:2: AttributeEnd has no AttributeBegin"));
+  EXPECT_THAT(refusal("Translate 1\n2 x", "in.pbrt"), HasSubstr("in.pbrt:1: \"x\" of \"the transform\" is no number"));
+  EXPECT_THAT(refusal("Shape \"sphere", "in.pbrt"), HasSubstr("in.pbrt:1: a string has no end"));
+}
+
+} // namespace nephroid::scene_import_test
