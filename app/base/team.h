@@ -86,24 +86,19 @@ private:
   std::shared_ptr<Ties> ties_;
 };
 
-/// Items first .. first + count - 1.
-struct Part {
-  std::int64_t first = 0, count = 0;
-};
-
 /// Which of `size` items a rank of the team works on, and it alone: every size()-th of eight strips a rank, so that each has some of what
 /// is easy and some of what is hard.
 class Shares {
 public:
   Shares(const Team& team, std::int64_t size) : rank_(team.rank()), ranks_(team.size()), size_(size) {}
 
-  /// Calls work(first, count) for what is this rank's of a part, which may be nothing.
+  /// Calls work(first, count) for what is this rank's of items from .. from + count - 1, which may be nothing.
   template <class Work>
-  void of(const Part& part, const Work& work) const
+  void of(std::int64_t from, std::int64_t count, const Work& work) const
   {
-    if (ranks_ == 1) return work(part.first, part.count);
+    if (ranks_ == 1) return work(from, count);
     for (std::int64_t strip = rank_; strip < strips(); strip += ranks_) {
-      const std::int64_t first = std::max(begin_of(strip), part.first), end = std::min(begin_of(strip + 1), part.first + part.count);
+      const std::int64_t first = std::max(begin_of(strip), from), end = std::min(begin_of(strip + 1), from + count);
       if (first < end) work(first, end - first);
     }
   }

@@ -197,7 +197,7 @@ void Judge::advance()
   const Team& team = context_.team();
   const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_step / rays_a_row) * team.size());
   const auto turn = static_cast<std::uint32_t>(round_);
-  Shares(team, layout_.facets.y).of({row_, rows}, [&](std::int64_t first_row, std::int64_t own) {
+  Shares(team, layout_.facets.y).of(row_, rows, [&](std::int64_t first_row, std::int64_t own) {
     judge_rows(static_cast<std::uint32_t>(first_row), static_cast<std::uint32_t>(own * rays_a_row), turn);
   });
   context_.finish();

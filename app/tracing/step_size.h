@@ -52,7 +52,7 @@ public:
     size_ = size;
     const auto count = std::clamp<std::int64_t>(std::llround(amount_.amount(team)), 1, std::min(most, size - done_));
     amount_.timed(static_cast<double>(count), [&] {
-      Shares(team, size).of({done_, count}, [&](std::int64_t first, std::int64_t own) {
+      Shares(team, size).of(done_, count, [&](std::int64_t first, std::int64_t own) {
         work(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own));
       });
     });

@@ -26,7 +26,7 @@ std::vector<int> workers(int ranks, std::int64_t items, std::int64_t step)
   std::vector<int> count(static_cast<std::size_t>(items));
   for (int rank = 0; rank < ranks; ++rank)
     for (std::int64_t first = 0; first < items; first += step)
-      Shares(rank_of(rank, ranks), items).of({first, std::min(step, items - first)}, [&](std::int64_t begin, std::int64_t own) {
+      Shares(rank_of(rank, ranks), items).of(first, std::min(step, items - first), [&](std::int64_t begin, std::int64_t own) {
         for (std::int64_t i = begin; i < begin + own; ++i) ++count[static_cast<std::size_t>(i)];
       });
   return count;
@@ -46,7 +46,7 @@ TEST(Shares, AreTheSameHoweverPartsAreCut)
   const auto of_rank = [](std::int64_t step) {
     std::set<std::int64_t> own;
     for (std::int64_t first = 0; first < 1000; first += step)
-      Shares(rank_of(1, 3), 1000).of({first, std::min(step, 1000 - first)}, [&](std::int64_t begin, std::int64_t count) {
+      Shares(rank_of(1, 3), 1000).of(first, std::min(step, 1000 - first), [&](std::int64_t begin, std::int64_t count) {
         for (std::int64_t i = begin; i < begin + count; ++i) own.insert(i);
       });
     return own;
@@ -64,9 +64,7 @@ TEST(Shares, KeepsWhatOneRankOwns)
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own[i];
     EXPECT_EQ(std::vector<int>(own.begin(), own.begin() + 300), std::vector<int>(own.begin() + 300, own.end()));
     int first = 0;
-    Shares(rank_of(rank, 4), 100).of({0, 100}, [&](std::int64_t begin, std::int64_t) {
-      first += own[static_cast<std::size_t>(3 * begin)];
-    });
+    Shares(rank_of(rank, 4), 100).of(0, 100, [&](std::int64_t begin, std::int64_t) { first += own[static_cast<std::size_t>(3 * begin)]; });
     EXPECT_GT(first, 0);
   }
   EXPECT_EQ(sum, std::vector<int>(sum.size(), 1));

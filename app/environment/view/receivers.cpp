@@ -84,7 +84,7 @@ bool Receivers::cast(const std::function<void(const CastTexels&)>& light)
   const auto count = std::clamp<std::int64_t>(std::llround(texels_a_step_.amount(team)), 1, static_cast<std::int64_t>(known_ - lit_));
   const Shares shares(team, static_cast<std::int64_t>(known_ - shared_));
   texels_a_step_.timed(static_cast<double>(count), [&] {
-    shares.of({static_cast<std::int64_t>(lit_ - shared_), count}, [&](std::int64_t first, std::int64_t own) {
+    shares.of(static_cast<std::int64_t>(lit_ - shared_), count, [&](std::int64_t first, std::int64_t own) {
       light({&list_, static_cast<std::uint32_t>(shared_) + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own), &distances_,
              &normals_, &caustics_, size_});
     });

@@ -284,7 +284,7 @@ std::vector<glm::dvec2> DeviceFacets::gradient()
   const Team& team = context_.team();
   const auto facets = static_cast<std::int64_t>(facets_);
   if (!team.is_alone()) gradient_.fill_zero();
-  Shares(team, facets).of({0, facets}, [&](std::int64_t begin, std::int64_t own) {
+  Shares(team, facets).of(0, facets, [&](std::int64_t begin, std::int64_t own) {
     const auto first = static_cast<std::uint32_t>(begin), count = static_cast<std::uint32_t>(own);
     find_gradient_.run(count, group,
                        {{"layout", layout_},
