@@ -21,7 +21,8 @@ void add_optics(py::module_& module);   ///< dispersion, clusters, segmentation,
 template <class T, class Owner>
 py::array lent(const std::shared_ptr<const Owner>& owner, const std::vector<T>& values, std::vector<py::ssize_t> shape)
 {
-  const py::capsule keeper(new std::shared_ptr<const Owner>(owner), [](void* kept) { delete static_cast<std::shared_ptr<const Owner>*>(kept); });
+  const py::capsule keeper(new std::shared_ptr<const Owner>(owner),
+                           [](void* kept) { delete static_cast<std::shared_ptr<const Owner>*>(kept); });
   py::array array(py::dtype::of<T>(), std::move(shape), values.data(), keeper);
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;

@@ -53,7 +53,8 @@ E chosen(const std::string& name, const std::string& word)
   throw bad_input(name, fmt::format("is '{}'", word), "expected one of " + words);
 }
 
-py::dict compare(const Floats& picture, const Floats& reference, const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& mask)
+py::dict compare(const Floats& picture, const Floats& reference,
+                 const std::optional<py::array_t<bool, py::array::c_style | py::array::forcecast>>& mask)
 {
   const measure::Pixels a = pixels_of(picture, "picture"), b = pixels_of(reference, "reference");
   std::vector<unsigned char> counted;
@@ -78,7 +79,8 @@ py::tuple sampled(const optics::DispersionCurve& curve, const Doubles& nm)
   std::vector<std::uint8_t> extrapolated;
   for (py::ssize_t i = 0; i < nm.size(); ++i) {
     const double wavelength = nm.data()[i];
-    if (!(wavelength > 0) || !std::isfinite(wavelength)) throw bad_input("nm", fmt::format("has {}", wavelength), "expected wavelengths above 0");
+    if (!(wavelength > 0) || !std::isfinite(wavelength))
+      throw bad_input("nm", fmt::format("has {}", wavelength), "expected wavelengths above 0");
     const optics::IndexSample sample = curve.sample(wavelength);
     n.push_back(sample.n.value_or(none));
     k.push_back(sample.k.value_or(none));

@@ -41,9 +41,7 @@ void add_presets(py::module_& module)
   // What would run: as `nephroid plan --json` has it.
   module.def(
       "plan_json",
-      [](const preset::Preset& preset) {
-        return preset::at_origins(preset, [&] { return plan::to_json(*run::prepare(preset).plan); });
-      },
+      [](const preset::Preset& preset) { return preset::at_origins(preset, [&] { return plan::to_json(*run::prepare(preset).plan); }); },
       py::arg("preset"), py::call_guard<py::gil_scoped_release>());
 }
 

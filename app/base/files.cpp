@@ -206,7 +206,8 @@ fs::path program_folder()
   // Of the program that this is part of; in another one, such as Python, of the library.
   Dl_info here{};
   const bool is_library = ::dladdr(reinterpret_cast<void*>(&program_folder), &here) != 0 && fs::path(here.dli_fname).extension() == ".so";
-  return is_library ? fs::weakly_canonical(here.dli_fname, ignored).parent_path() : fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  return is_library ? fs::weakly_canonical(here.dli_fname, ignored).parent_path()
+                    : fs::read_symlink("/proc/self/exe", ignored).parent_path();
 }
 
 bool is_folder(const fs::path& path)

@@ -92,8 +92,7 @@ TEST_F(Ranks, GiveOnePictureOfProgressiveMaps)
 
 TEST_F(Ranks, GiveOnePictureOfLayers)
 {
-  expect_one_picture(
-      {"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "spectral.relight=true"}, {2});
+  expect_one_picture({"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "spectral.relight=true"}, {2});
 }
 
 // The bake, receivers around the object, light in the air, and photons.

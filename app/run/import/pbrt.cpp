@@ -29,8 +29,8 @@ const std::set<std::string> about_rendering{"Sampler",     "Integrator", "Surfac
                                             "Accelerator", "Renderer",   "ColorSpace",        "Option",           "Attribute"};
 /// n at 587.6 nm, of the named_glasses that PBRT names.
 const std::map<std::string, double> named_glasses{{"glass-BK7", 1.5168},   {"glass-BAF10", 1.6700}, {"glass-FK51A", 1.4866},
-                                            {"glass-LASF9", 1.8503}, {"glass-F5", 1.6034},    {"glass-SF5", 1.6727},
-                                            {"glass-SF10", 1.7283},  {"glass-SF11", 1.7847}};
+                                                  {"glass-LASF9", 1.8503}, {"glass-F5", 1.6034},    {"glass-SF5", 1.6727},
+                                                  {"glass-SF10", 1.7283},  {"glass-SF11", 1.7847}};
 
 struct State {
   glm::dmat4 to_world{1};
