@@ -132,7 +132,12 @@ private:
         next = count;
       }
     });
-    for (std::int64_t number = next++; number < count; number = next++) work(number);
+    try {
+      for (std::int64_t number = next++; number < count; number = next++) work(number);
+    } catch (...) {
+      next = count; // the others end what they have begun
+      throw;
+    }
     others.join();
     if (thrown) std::rethrow_exception(thrown);
   }
