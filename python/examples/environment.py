@@ -32,8 +32,7 @@ preset = nephroid.Preset("environment/ball", {"scene.camera.resolution": [160, 1
 first = None
 with nephroid.start(preset) as run:
     for _ in run.watch(0.2):
-        if first is None and run.state == "running":
-            first = run.picture()
+        first = run.picture() if first is None else first
     last, history = run.picture(), run.history()
 
 # %%

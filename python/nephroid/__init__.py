@@ -291,6 +291,9 @@ class Run:
 
     def spectrum(self, column: int, row: int) -> Spectrum:
         """Of a pixel. Raises BadInput where the run keeps none; of the spectral engine those with "spectral.relight" true do."""
+        height, width, _ = self.picture().shape
+        if not (0 <= column < width and 0 <= row < height):
+            raise BadInput(f"spectrum: there is none of the pixel {column}, {row}; expected one of {width} x {height}")
         self._core.watch((column, row))
         for _ in range(2000):
             made = self._core.spectrum()
@@ -306,7 +309,10 @@ class Run:
         self._core.save(str(folder))
 
     def __repr__(self) -> str:
-        return f"<nephroid.Run of {self.preset.name!r}, {self.state}, {100 * self.progress:.0f} %>"
+        try:
+            return f"<nephroid.Run of {self.preset.name!r}, {self.state}, {100 * self.progress:.0f} %>"
+        except Error:  # closed, or another process'
+            return f"<nephroid.Run of {self.preset.name!r}, closed>"
 
 
 @_atexit.register

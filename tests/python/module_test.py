@@ -84,6 +84,7 @@ class Runs(unittest.TestCase):
                 picture[0, 0, 0] = 1
             np.testing.assert_allclose(sum(run.layers().values()), picture, rtol=1e-5, atol=1e-6)
             before = picture.copy()
+        self.assertIn("closed", repr(run))
         del run
         np.testing.assert_array_equal(picture, before)  # a closed run leaves it
 
