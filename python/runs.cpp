@@ -11,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <unistd.h>
+#include <utility>
 
 namespace nephroid::python {
 namespace {
@@ -42,49 +43,70 @@ const char* word(job::State state)
   return "";
 }
 
+/// Waits for the step in hand, and holds up no other Python thread meanwhile.
+void end(job::Worker* worker)
+{
+  std::optional<py::gil_scoped_release> released;
+  if (PyGILState_Check() != 0) released.emplace();
+  delete worker;
+}
+
 class Run {
 public:
-  Run(const preset::Preset& preset, std::string device) : process_(::getpid()), worker_(std::make_unique<job::Worker>())
+  Run(const preset::Preset& preset, std::string device) : process_(::getpid()), worker_(new job::Worker, &end)
   {
     worker_->start([this, preset, device = std::move(device)] { return make(preset, device); });
   }
-  /// A forked process has none of the threads: what waits for them would wait for ever.
-  ~Run() { process_ == ::getpid() ? close() : static_cast<void>(worker_.release()); }
+  ~Run() { close(); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
 
-  job::Status status() const { return worker().status(); }
-  std::shared_ptr<const job::Snapshot> snapshot() const { return worker().snapshot(); }
+  /// A forked process has none of the threads: what waits for them would wait for ever, and a mutex may be locked for ever.
+  bool is_of_this_process() const { return process_ == ::getpid(); }
+
+  job::Status status() const { return worker()->status(); }
+  std::shared_ptr<const job::Snapshot> snapshot() const { return worker()->snapshot(); }
   void stop()
   {
+    const std::shared_ptr<job::Worker> held = worker();
     stopping_.request_stop();
-    worker().cancel();
+    held->cancel();
   }
-  void pause(bool paused) { worker().pause(paused); }
-  void watch(std::optional<std::array<int, 2>> pixel) { worker().watch_spectrum(pixel); }
-  std::shared_ptr<const job::PixelSpectrum> spectrum() const { return worker().spectrum(); }
+  void pause(bool paused) { worker()->pause(paused); }
+  void watch(std::optional<std::array<int, 2>> pixel) { worker()->watch_spectrum(pixel); }
+  std::shared_ptr<const job::PixelSpectrum> spectrum() const { return worker()->spectrum(); }
   /// "reading bunny.obj"
   std::string doing() const
   {
+    check_process();
     const std::scoped_lock lock(mutex_);
     return doing_;
   }
   std::vector<std::string> notes() const
   {
+    check_process();
     const std::scoped_lock lock(mutex_);
     return made_ ? made_->prepared.plan->notes : std::vector<std::string>();
   }
 
-  /// Waits for the step in hand.
+  /// Waits for the step in hand. A call of another thread that is at it keeps the worker until it returns.
   void close()
   {
-    if (!worker_) return;
+    if (!is_of_this_process()) return;
     stopping_.request_stop();
-    worker_.reset();
+    const std::shared_ptr<job::Worker> dropped = [&] {
+      const std::scoped_lock lock(mutex_);
+      return std::exchange(worker_, nullptr);
+    }();
   }
 
-  /// As `nephroid run` writes them, but for a checkpoint.
+  /// As `nephroid run` writes them, but for a checkpoint. close() may come meanwhile.
   void save(const std::string& folder) const
   {
-    const std::shared_ptr<const job::Snapshot> shown = snapshot();
+    std::shared_ptr<job::Worker> held = worker();
+    const bool finished = held->status().state == job::State::finished; // before the picture, which is the last one then
+    const std::shared_ptr<const job::Snapshot> shown = held->snapshot();
+    held.reset();
     const std::shared_ptr<const Made> made = [&] {
       const std::scoped_lock lock(mutex_);
       return made_;
@@ -92,19 +114,24 @@ public:
     if (!made || !shown || shown->stands_in) throw failed(folder, "the run has no picture yet", {}, "wait for one");
     run::claim_folder(folder);
     run::begin_run(folder, made->prepared);
-    const bool finished = status().state == job::State::finished;
     run::write_run(folder, made->prepared, made->device, *shown, made->reference.get(), finished);
     if (finished && shown->history) run::write_report(folder);
   }
 
 private:
-  job::Worker& worker() const
+  void check_process() const
   {
-    if (process_ != ::getpid())
+    if (!is_of_this_process())
       throw failed("run", "belongs to the process that started it, and this one was forked from that", {},
                    "start a run here, or use multiprocessing's start method 'spawn'");
+  }
+
+  std::shared_ptr<job::Worker> worker() const
+  {
+    check_process();
+    const std::scoped_lock lock(mutex_);
     if (!worker_) throw failed("run", "is closed");
-    return *worker_;
+    return worker_;
   }
 
   /// On the worker's thread.
@@ -134,10 +161,18 @@ private:
 
   pid_t process_;
   std::stop_source stopping_;
-  mutable std::mutex mutex_; ///< of what the worker's thread tells
+  mutable std::mutex mutex_; ///< of what follows
   std::string doing_;
   std::shared_ptr<const Made> made_;
-  std::unique_ptr<job::Worker> worker_; ///< the last: its thread uses the others
+  std::shared_ptr<job::Worker> worker_; ///< null: closed. Who calls it holds it
+};
+
+/// In a forked process a run stays where it is: its threads may have left anything of it half done.
+struct Deleter {
+  void operator()(Run* run) const
+  {
+    if (run->is_of_this_process()) delete run;
+  }
 };
 
 } // namespace
@@ -163,7 +198,7 @@ void add_runs(py::module_& module)
               lent<double, job::PixelSpectrum>(spectrum, layer.radiance, {static_cast<py::ssize_t>(layer.radiance.size())});
         return layers;
       });
-  py::class_<Run>(module, "Run")
+  py::class_<Run, std::unique_ptr<Run, Deleter>>(module, "Run")
       .def(py::init<const preset::Preset&, std::string>(), py::arg("preset"), py::arg("device"), released)
       .def("state", [](const Run& run) { return word(run.status().state); })
       .def("progress", [](const Run& run) { return run.status().progress; })

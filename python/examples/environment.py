@@ -28,11 +28,11 @@ axis.legend(loc="lower right")
 figure.savefig("environment-lights.png", dpi=110)
 
 # %% The ball on its table: a first picture at once, a better one while we watch.
-preset = nephroid.Preset("environment/ball", {"scene.camera.resolution": [160, 120], "stop": {"passes": 12}})
-first = None
+preset = nephroid.Preset("environment/ball", {"scene.camera.resolution": [160, 120], "stop": {"passes": 48}})
 with nephroid.start(preset) as run:
-    for _ in run.watch(0.2):
-        first = run.picture() if first is None else first
+    first = run.picture()
+    for _ in run.watch(0.5):
+        print(f"{run.work_seconds:.1f} s, error {run.error}")
     last, history = run.picture(), run.history()
 
 # %%
@@ -40,6 +40,6 @@ figure, axes = plt.subplots(1, 3, figsize=(12, 3), constrained_layout=True)
 for axis, picture, title in ((axes[0], first, "the first picture"), (axes[1], last, "the last")):
     axis.imshow(np.clip(picture, 0, 1) ** (1 / 2.2))
     axis.set(title=title, xticks=[], yticks=[])
-axes[2].loglog(history["seconds"], history["estimated_lab_mean"], "o-")
-axes[2].set(xlabel="seconds of work", ylabel="its own estimate of the CIELAB error")
+axes[2].plot(history["seconds"], history["estimated_lab_mean"], "o-")
+axes[2].set(title="its own estimate of the error", xlabel="seconds of work", ylabel="CIELAB, mean", ylim=(0, None))
 figure.savefig("environment-pictures.png", dpi=110)

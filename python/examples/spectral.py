@@ -7,6 +7,7 @@
 # %%
 import matplotlib.pyplot as plt
 import numpy as np
+from numpy.typing import NDArray
 
 import nephroid
 
@@ -30,7 +31,7 @@ figure.savefig("spectral-clusters.png", dpi=110)
 scene = nephroid.Preset("spectral/prism", {"scene.camera.resolution": [160, 120], "stop": {"passes": 12}})
 
 
-def caustic(preset: nephroid.Preset) -> np.ndarray:
+def caustic(preset: nephroid.Preset) -> NDArray[np.float32]:
     with nephroid.run(preset) as run:
         return run.layers()["caustic"]
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python module: arrays without copies, the bits of the command line, an interpreter that goes on, and what must not hang."""
 import contextlib
+import importlib.util
 import io
 import os
 import re
@@ -143,8 +144,8 @@ class Endings(unittest.TestCase):
         process = child("""
 run = nephroid.start(nephroid.Preset("first-light", {**SMALL, "stop": {"passes": 100000}}))
 run.picture()
-print("working", flush=True)
 try:
+    print("working", flush=True)
     run.wait()
 except KeyboardInterrupt:
     print("interrupted", run.running, flush=True)
@@ -165,25 +166,60 @@ run.picture()
         out, err = self.ends(process)
         self.assertEqual((process.returncode, err), (0, ""))
 
+    def test_closing_while_others_look_and_save(self):
+        process = child("""
+import tempfile, threading
+def look():
+    while True:
+        try:
+            run.state, run.progress, run.picture(), run.spectrum
+        except nephroid.Error as error:
+            return ends.append(str(error))
+def save():
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(100000):
+            saved = os.path.join(folder, str(number))
+            try:
+                run.save(saved)
+            except nephroid.Error as error:
+                return ends.append("half saved" if os.path.exists(saved) else str(error))
+for _ in range(5):
+    ends = []
+    run = nephroid.start(nephroid.Preset("first-light", {**SMALL, "stop": {"passes": 100000}}))
+    run.picture()
+    others = [threading.Thread(target=one) for one in (look, save, save)]
+    closers = [threading.Thread(target=run.close) for _ in range(2)]
+    for one in others: one.start()
+    time.sleep(0.1)
+    for one in closers: one.start()
+    for one in closers + others: one.join()
+    print(len(ends), all("is closed" in end for end in ends))
+""")
+        out, err = self.ends(process)
+        self.assertEqual((process.returncode, out.splitlines()), (0, ["3 True"] * 5), err)
+
     def test_a_fork(self):
         process = child("""
 run = nephroid.start(nephroid.Preset("first-light", {**SMALL, "stop": {"passes": 100000}}))
 run.picture()
 pid = os.fork()
 if pid == 0:
-    try:
-        run.picture()
-    except nephroid.Error as error:
-        print(error, flush=True)
-    del run
+    for call in (run.picture, lambda: run.doing, run._core.notes, lambda: run.state, run.stop, lambda: run.save("none")):
+        try:
+            call()
+        except nephroid.Error as error:
+            print(error, flush=True)
+    run.close()
+    del call, run
     os._exit(7)
 print(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]))
 run.stop()
 print(run.wait().state)
 """)
         out, err = self.ends(process)
-        self.assertIn("belongs to the process that started it", out)
-        self.assertEqual(out.splitlines()[1:], ["7", "stopped"], err)
+        lines = out.splitlines()
+        self.assertEqual(["belongs to the process that started it" in line for line in lines[:6]], [True] * 6, out + err)
+        self.assertEqual(lines[6:], ["7", "stopped"], err)
 
 
 class Page(unittest.TestCase):
@@ -242,6 +278,34 @@ class Optics(unittest.TestCase):
                      lambda: nephroid.compare(a * np.nan, b), lambda: nephroid.compare(np.empty((0, 3, 3)), b)):
             with self.assertRaises(nephroid.BadInput):
                 call()
+
+    def test_pictures_are_linear(self):
+        a = np.ones((4, 8, 3))
+        for wrong, words in ((a.astype(np.uint8), "picture: is of uint8, which is not linear; .*decode it to linear floats"),
+                             (a * 1j, "picture: is of complex128; expected real numbers"), (a.astype(str), "picture: is of <U"),
+                             (a.astype(object), "picture: is of object")):
+            with self.assertRaisesRegex(nephroid.BadInput, words):
+                nephroid.compare(wrong, a)
+            with self.assertRaisesRegex(nephroid.BadInput, words.replace("picture", "reference")):
+                nephroid.compare(a, wrong)
+            with self.assertRaisesRegex(nephroid.BadInput, words.replace("picture", "environment")):
+                nephroid.segment(wrong, 24)
+        self.assertEqual(nephroid.compare(a.tolist(), a.astype(np.float16))["mse"], 0)
+
+
+class Types(unittest.TestCase):
+    @unittest.skipUnless(importlib.util.find_spec("mypy"), "mypy is not there")
+    def test_hold(self):
+        examples = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "python", "examples")
+        files = [os.path.join(examples, name) for name in sorted(os.listdir(examples)) if name.endswith(".py")]
+        self.assertGreater(len(files), 2)
+        with tempfile.TemporaryDirectory() as folder:
+            settings = os.path.join(folder, "mypy.ini")
+            with open(settings, "w", encoding="utf-8") as out:
+                out.write("[mypy]\n[mypy-matplotlib.*]\nignore_missing_imports = True\n")
+            made = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--config-file", settings, "--cache-dir", os.path.join(folder, "cache"),
+                                   os.path.dirname(nephroid.__file__), *files], cwd=folder, capture_output=True, text=True)
+        self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
 
 
 if __name__ == "__main__":

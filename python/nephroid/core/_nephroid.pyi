@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What python/*.cpp give; nephroid/__init__.py says what each means.
+# What python/*.cpp give; nephroid/__init__.py and optics.py say what each means.
 from typing import Any
 
 import numpy as np
