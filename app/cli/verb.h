@@ -92,6 +92,7 @@ void add_plate(CLI::App& program, Session& session);
 void add_report(CLI::App& program, Session& session);
 void add_compare(CLI::App& program, Session& session);
 void add_import(CLI::App& program, Session& session);
+void add_export(CLI::App& program, Session& session);
 void add_presets(CLI::App& program, Session& session);
 void add_devices(CLI::App& program, Session& session);
 void add_check(CLI::App& program, Session& session);

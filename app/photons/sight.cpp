@@ -221,8 +221,17 @@ Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const
   const glm::dvec3 way =
       glm::dvec3(camera.forward) + x * camera.tan_x * glm::dvec3(camera.right) + y * camera.tan_y * glm::dvec3(camera.up);
   const double spacing = 2 * std::max(camera.tan_x / camera.width, camera.tan_y / camera.height) / glm::length(way);
-  Look look(scene, bvh, glm::normalize(way));
   Sight sight;
+  if (camera.receiver >= 0) {
+    const scene::Object& receiver = scene.objects[static_cast<std::size_t>(camera.receiver)];
+    const glm::dvec3 eye = camera.position, corner = scene.geometry.positions[scene::triangles_of(scene, receiver).front().x];
+    const double distance = glm::dot(corner - eye, glm::dvec3(camera.forward));
+    sight.first = sight.last = {glm::vec3(eye + distance * way), -camera.forward, camera.receiver};
+    sight.way = glm::vec3(glm::normalize(way));
+    sight.spacing = static_cast<float>(spacing * glm::length(way) * distance);
+    return sight;
+  }
+  Look look(scene, bvh, glm::normalize(way));
   for (int surface = 0; surface < most_surfaces; ++surface) {
     const std::optional<Place> place = look.next();
     if (!place) break;
@@ -245,6 +254,7 @@ Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const
 
 std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene)
 {
+  if (scene.camera.receiver >= 0) return {};
   Marks marks(scene.camera);
   for (const scene::Object& object : scene.objects) {
     if (material_of(scene, object).type == scene::Material::Type::diffuse) continue;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace nephroid::run {
@@ -16,23 +17,22 @@ namespace {
 
 constexpr std::array results{"image.exr", "image.png", "run.json", "history.csv", "report.html", "checkpoint.bin"};
 
-/// Ours are the folders with a plan and a preset, what begin_run writes first, and those with nothing but what a killed
-/// writer left.
-bool holds_a_run_or_nothing(const fs::path& folder)
+/// Ours are the folders with all of these files, and those with nothing but what a killed writer left.
+bool is_ours(const fs::path& folder, const std::vector<std::string>& files)
 {
-  if (is_there(folder / "plan.json") && is_there(folder / "preset.json")) return true;
+  if (std::ranges::all_of(files, [&](const std::string& name) { return is_there(folder / name); })) return true;
   for (const auto& entry : fs::directory_iterator(folder))
     if (!is_temporary_name(entry.path())) return false;
   return true;
 }
 
-bool claim(const fs::path& folder)
+bool claim(const fs::path& folder, const std::string& whose, const std::vector<std::string>& files)
 {
   if (is_there(folder) && !fs::is_directory(folder))
-    throw bad_input(folder.string(), "is a file", "expected a folder for the run's files", "choose another one with -o");
+    throw bad_input(folder.string(), "is a file", "expected a folder for the files of " + whose, "choose another one with -o");
   const bool is_new = fs::create_directories(folder);
-  if (!holds_a_run_or_nothing(folder))
-    throw bad_input(folder.string(), "holds files that are not of a run", "expected an empty or a new folder",
+  if (!is_ours(folder, files))
+    throw bad_input(folder.string(), "holds files that are not of " + whose, "expected an empty or a new folder",
                     "choose another one with -o");
   for (const auto& entry : fs::directory_iterator(folder))
     if (is_temporary_name(entry.path())) fs::remove(entry.path());
@@ -44,10 +44,12 @@ bool claim(const fs::path& folder)
 
 } // namespace
 
-bool claim_folder(const fs::path& folder)
+bool claim_folder(const fs::path& folder) { return claim_folder(folder, "a run", {"plan.json", "preset.json"}); }
+
+bool claim_folder(const fs::path& folder, const std::string& whose, const std::vector<std::string>& files)
 {
   try {
-    return claim(folder);
+    return claim(folder, whose, files);
   } catch (const fs::filesystem_error& error) {
     throw failed(folder.string(), "cannot be used: " + error.code().message(), "expected a folder that can be written to",
                  "choose another one with -o");

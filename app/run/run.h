@@ -85,6 +85,8 @@ std::optional<double> white_of_run(const std::filesystem::path& folder);
 /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. Throws bad_input where it
 /// is a file or holds anything but a run, failed where it cannot be written to. Returns whether it made the folder.
 bool claim_folder(const std::filesystem::path& folder);
+/// The same of something else than a run, of which each has all of these `files`. whose: "a run".
+bool claim_folder(const std::filesystem::path& folder, const std::string& whose, const std::vector<std::string>& files);
 /// Removes a folder that claim_folder made where nothing was written into it.
 void release_folder(const std::filesystem::path& folder);
 /// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all writing below

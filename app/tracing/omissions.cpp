@@ -3,6 +3,7 @@
 
 #include "base/counted.h"
 #include "preset/choices.h"
+#include "scene/plane.h"
 #include "tracing/targets.h"
 
 #include <fmt/format.h>
@@ -54,28 +55,6 @@ bool may_be_in_view(const scene::Scene& scene, const scene::Object& object)
   return std::ranges::none_of(beyond, [](bool b) { return b; });
 }
 
-struct Plane {
-  glm::dvec3 point{0}, normal{0};
-  double tolerance = 0; ///< what rounding the corners to single precision may add
-  double height(const glm::dvec3& p) const { return glm::dot(p - point, normal); }
-};
-
-/// The plane that an object lies in, if it is flat.
-std::optional<Plane> plane_of(const scene::Scene& scene, const scene::Object& object)
-{
-  if (object.triangle_count == 0) return std::nullopt;
-  const glm::uvec3 first = scene::triangles_of(scene, object).front();
-  const auto corner = [&](std::uint32_t vertex) { return glm::dvec3(scene.geometry.positions[vertex]); };
-  Plane plane{corner(first.x), glm::normalize(glm::cross(corner(first.y) - corner(first.x), corner(first.z) - corner(first.x))), 0};
-  double largest = 0, highest = 0;
-  scene::for_each_corner(scene, object, [&](const glm::dvec3& p) {
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    highest = std::max(highest, std::abs(plane.height(p)));
-  });
-  plane.tolerance = 1e-6 * largest;
-  return highest <= plane.tolerance ? std::optional(plane) : std::nullopt;
-}
-
 /// Whether the camera sees all that is in its view: flat objects only, with the camera and all the others on one side of each.
 bool nothing_blocks_the_view(const scene::Scene& scene)
 {
@@ -84,7 +63,7 @@ bool nothing_blocks_the_view(const scene::Scene& scene)
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     if (may_be_in_view(scene, scene.objects[i])) seen.push_back(i);
   for (const std::size_t i : seen) {
-    const std::optional<Plane> plane = plane_of(scene, scene.objects[i]);
+    const std::optional<scene::Plane> plane = scene::plane_of(scene, scene.objects[i]);
     if (!plane) return false;
     const double side = plane->height(eye) > 0 ? 1 : -1;
     if (side * plane->height(eye) <= plane->tolerance) return false;

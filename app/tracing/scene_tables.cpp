@@ -221,6 +221,7 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& whe
   out.width = camera.width;
   out.height = camera.height;
   out.inside = to_media(camera.inside, where / "position");
+  out.receiver = camera.receiver;
   return out;
 }
 

@@ -55,6 +55,10 @@ static inline Splat splat_at(const World* world, const DeviceCamera* camera, con
   Splat splat = {-1, 0.0f};
   splat.pixel = project_to_pixel(camera, surface->position, surface->geometric, arriving, world->scene.metres_per_unit, &splat.weight);
   splat.weight *= shading_ratio(surface, arriving);
+  if (camera->receiver >= 0) {
+    if (surface->object != camera->receiver) splat.pixel = -1;
+    return splat;
+  }
 #if NEPHROID_OCCLUSION
   if (splat.pixel < 0) return splat;
   const float3 from = start_on_side(surface, dot(arriving, surface->geometric) < 0.0f ? 1.0f : -1.0f);

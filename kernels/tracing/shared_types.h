@@ -116,6 +116,8 @@ typedef struct {
   float tan_x, tan_y;        // of half the angle of view
   int width, height;         // pixels
   Media inside;
+  int receiver; // the object whose light is mapped, whatever stands before it; -1: an eye sees all
+  int padding[3];
 } DeviceCamera;
 
 // The environment's picture: see background.h and sky.h.
@@ -154,7 +156,7 @@ typedef struct {
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
-static_assert(sizeof(DeviceCamera) == 96 && sizeof(DeviceScene) == 32 && sizeof(DeviceBackground) == 16);
+static_assert(sizeof(DeviceCamera) == 112 && sizeof(DeviceScene) == 32 && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64);
 } // namespace nephroid::shared
 #endif

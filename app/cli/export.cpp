@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// `nephroid export`: a scene with its caustics for Blender and whatever else reads glTF.
+#include "run/export/export.h"
+#include "base/interrupts.h"
+#include "cli/progress.h"
+#include "cli/run_target.h"
+#include "cli/verb.h"
+#include "engine/engine.h"
+#include "preset/origins.h"
+#include "preset/read.h"
+#include "preset/settings_type.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <optional>
+
+namespace nephroid::cli {
+namespace fs = std::filesystem;
+namespace {
+
+struct ExportOptions {
+  RunOptions run;
+  std::vector<std::string> receivers;
+  int size = 1024;
+  double seconds = 30;
+};
+
+/// The frame that an animation begins with.
+preset::Preset still(preset::Preset preset) { return preset.animation ? preset::at_frame(preset, 0) : preset; }
+
+/// Of engine 1, whatever engine it is of, with photons on matt surfaces and nothing else.
+preset::Preset of_caustics_alone(const ExportOptions& options, const preset::Preset& asked)
+{
+  preset::Overrides overrides = options.run.overrides;
+  for (const char* more : {"engine=spectral", "white=1", "spectral.direct=false", "spectral.background=false", "spectral.indirect=false",
+                           "spectral.caustic=true", "spectral.relight=false", "spectral.estimator=splat"})
+    overrides.emplace_back(more);
+  if (asked.settings.type().name != "spectral" && asked.scene.environment) overrides.emplace_back("scene.environment.lights=true");
+  preset::Preset preset = still(preset::read_preset(options.run.preset, overrides));
+  preset.reference.reset();
+  preset.stop = {};
+  preset.stop.seconds = options.seconds;
+  return preset;
+}
+
+std::string name_of(const scene::Scene& scene, const run::Receiver& receiver)
+{
+  return scene.objects[static_cast<std::size_t>(receiver.object)].name;
+}
+
+/// Those that are asked for, or all.
+std::vector<run::Receiver> chosen(const ExportOptions& options, const scene::Scene& scene)
+{
+  const std::vector<run::Receiver> all = run::receivers_of(scene);
+  std::vector<std::string> names;
+  for (const run::Receiver& receiver : all) names.push_back(name_of(scene, receiver));
+  if (all.empty()) throw bad_input(options.run.preset, "has no flat matt object", "expected one that a caustic can fall on");
+  if (options.receivers.empty()) return all;
+  std::vector<run::Receiver> receivers;
+  for (const std::string& name : options.receivers) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+      throw bad_input("--receiver", fmt::format("no flat matt object is called '{}'", name),
+                      fmt::format("one of: {}", fmt::join(names, ", ")));
+    receivers.push_back(all[static_cast<std::size_t>(found - names.begin())]);
+  }
+  return receivers;
+}
+
+std::string no_photons(const plan::Plan& plan) { return std::ranges::find(plan.passes, "photons", &plan::Pass::name)->reason; }
+
+/// Nothing where no light falls on the receiver.
+std::optional<run::Caustic> caustic_on(const ExportOptions& options, const run::Prepared& prepared, const run::Receiver& receiver,
+                                       const compute::Context& context, const std::stop_token& interrupted)
+{
+  const std::string name = name_of(prepared.loaded->scene, receiver);
+  const run::Prepared lit = run::light_on(prepared, receiver, options.size);
+  const std::unique_ptr<job::Job> job = run::make_job(lit, context);
+  ProgressDisplay display(progress_style(false), {name, prepared.preset.name}, job->progress());
+  while (!job->finished()) {
+    if (interrupted.stop_requested()) throw Error(ErrorKind::interrupted, "export", "was interrupted", "nothing is written");
+    job->step();
+    display.update(job->progress());
+  }
+  display.finish(job->progress());
+  run::Caustic caustic(lit.loaded->scene, receiver, *job->snapshot().picture);
+  if (!(caustic.watts > 0)) return std::nullopt;
+  return caustic;
+}
+
+void export_scene(const ExportOptions& options, const std::stop_token& interrupted)
+{
+  const preset::Preset asked = still(preset::read_preset(options.run.preset, options.run.overrides));
+  const engine::Engine& engine = engine::engine_of(asked);
+  if (!engine.has_scene)
+    throw bad_input(asked.source, fmt::format("is of the engine '{}', which makes its glass only when it runs", engine::name_of(engine)),
+                    {}, fmt::format("run it first, then export {} of its folder", engine.introduction.result.file));
+  const fs::path folder =
+      options.run.folder.empty() ? fs::path("out") / (preset::stem_of(options.run.preset) + "-export") : options.run.folder;
+  const preset::Preset preset = of_caustics_alone(options, asked);
+  preset::at_origins(preset, [&] {
+    const run::Prepared prepared = run::prepare(preset, nullptr, {interrupted, {}});
+    const std::vector<run::Receiver> receivers = chosen(options, prepared.loaded->scene);
+    if (prepared.plan->layers == 0) throw bad_input(preset.source, "has no caustic: " + no_photons(*prepared.plan));
+    Shared shared;
+    const compute::Context& context = device_of(options.run, shared);
+    const bool is_new_folder = run::claim_export(folder);
+    try {
+      std::vector<run::Caustic> caustics;
+      std::vector<std::string> notes = prepared.plan->notes;
+      for (const run::Receiver& receiver : receivers)
+        if (auto caustic = caustic_on(options, prepared, receiver, context, interrupted))
+          caustics.push_back(std::move(*caustic));
+        else
+          notes.push_back(fmt::format("'{}' has no picture: no light comes to it through glass or from a mirror",
+                                      name_of(prepared.loaded->scene, receiver)));
+      const double white =
+          asked.white != 0 ? asked.white : run::fitted_white(run::prepare(asked, nullptr, {interrupted, {}}), context, {interrupted, {}});
+      std::ranges::move(run::write_export(folder, prepared.loaded->scene, asked, caustics, white), std::back_inserter(notes));
+      for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+      for (const run::Caustic& caustic : caustics)
+        fmt::print("{}: {:.4g} luminous watts on '{}'\n", (folder / caustic.file).string(), caustic.watts,
+                   name_of(prepared.loaded->scene, caustic.receiver));
+      fmt::print("{}\n", (folder / "scene.glb").string());
+    } catch (...) {
+      if (is_new_folder) run::release_folder(folder);
+      throw;
+    }
+  });
+}
+
+} // namespace
+
+void add_export(CLI::App& program, Session&)
+{
+  const auto options = std::make_shared<ExportOptions>();
+  Verb verb(program, "export", "A scene with its caustics for Blender and other renderers: glTF and pictures of irradiance",
+            {{"nephroid export first-light --receiver floor --seconds 4", "writes out/first-light-export"}},
+            "scene.glb holds meshes, materials, the camera, lamps, and each caustic as light that its receiver sends out.\n"
+            "caustic-N-NAME.exr is what falls on a flat matt object through glass and by way of mirrors, in luminous W/m^2.\n"
+            "blender.py puts all of it together: blender --python out/first-light-export/blender.py");
+  verb.option("PRESET", options->run.preset, {.says = "A preset file or the name of a shipped preset", .required = true});
+  verb.option("-o,--output", options->run.folder, {.type = "DIR", .says = "Folder for the files (default out/NAME-export)"});
+  verb.overrides(options->run.overrides);
+  verb.option("--receiver", options->receivers,
+              {.type = "NAME", .says = "Only this flat matt object's caustic; may be repeated (default: of all there are)"});
+  verb.option("--size", options->size, {.type = "N", .says = "Pixels of a picture's longer edge (default 1024)", .from = 1, .to = 16384});
+  verb.option("--seconds", options->seconds, {.type = "S", .says = "Work for each picture (default 30)", .from = 0.001, .to = 1e9});
+  verb.option("--device", options->run.device.selector, {.type = "SEL", .says = "An index or part of a name (see nephroid devices)"});
+  verb.work([options] {
+    const Interrupts interrupts; // before OpenCL starts its threads
+    export_scene(*options, interrupts.token());
+  });
+}
+
+} // namespace nephroid::cli
