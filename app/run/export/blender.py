@@ -77,9 +77,10 @@ def make_matt(name, rgb, caustic):
 def make_materials():
     caustics = {c["object"]: c for c in ABOUT["caustics"]}
     for name, rgb in ABOUT["matt"].items():
-        if name in bpy.data.objects:
-            bpy.data.objects[name].data.materials.clear()
-            bpy.data.objects[name].data.materials.append(make_matt(name, rgb, caustics.get(name)))
+        mesh = bpy.data.meshes.get(name[:63])  # as much of it as Blender keeps; of an object without triangles there is none
+        if mesh:
+            mesh.materials.clear()
+            mesh.materials.append(make_matt(name, rgb, caustics.get(name)))
 
 
 def add_area_lights():
