@@ -55,20 +55,18 @@ std::string name_of(const scene::Scene& scene, const run::Receiver& receiver)
 /// Those that are asked for, or all.
 std::vector<run::Receiver> chosen(const ExportOptions& options, const scene::Scene& scene)
 {
-  const std::vector<run::Receiver> all = run::receivers_of(scene);
+  std::vector<run::Receiver> all = run::receivers_of(scene);
   std::vector<std::string> names;
   for (const run::Receiver& receiver : all) names.push_back(name_of(scene, receiver));
   if (all.empty()) throw bad_input(options.run.preset, "has no flat matt object", "expected one that a caustic can fall on");
-  if (options.receivers.empty()) return all;
-  std::vector<run::Receiver> receivers;
-  for (const std::string& name : options.receivers) {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end())
+  const std::vector<std::string>& wanted = options.receivers;
+  for (const std::string& name : wanted)
+    if (std::ranges::count(names, name) == 0)
       throw bad_input("--receiver", fmt::format("no flat matt object is called '{}'", name),
                       fmt::format("one of: {}", fmt::join(names, ", ")));
-    receivers.push_back(all[static_cast<std::size_t>(found - names.begin())]);
-  }
-  return receivers;
+  if (!wanted.empty())
+    std::erase_if(all, [&](const run::Receiver& receiver) { return std::ranges::count(wanted, name_of(scene, receiver)) == 0; });
+  return all;
 }
 
 std::string no_photons(const plan::Plan& plan) { return std::ranges::find(plan.passes, "photons", &plan::Pass::name)->reason; }

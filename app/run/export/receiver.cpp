@@ -83,6 +83,7 @@ Prepared light_on(const Prepared& prepared, const Receiver& receiver, int longes
   scene.camera = camera;
   lit.preset.scene.camera.resolution = {camera.width, camera.height};
   std::unique_ptr<plan::Plan> plan = engine::engine_of(lit.preset).plan(lit.preset, scene, *loaded->bvh);
+  plan->smaller = "choose a smaller --size";
   plan->buffers.push_back(picture_and_files(*plan, camera.width, camera.height));
   lit.loaded = std::move(loaded);
   lit.plan = std::move(plan);
