@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Renders the same scenes with Nephroid, Mitsuba 3, LuxCore and POV-Ray: error against processor time.
+"""Renders the same scenes with Nephroid, Mitsuba 3, LuxCore and POV-Ray, and designs the same lens with another tool: error against processor time.
 
-    tests/experiments/peers.py PROGRAM OUT [SCENE...]     of these scenes of peers_scenes.py, or of all
+    tests/experiments/peers.py PROGRAM OUT [SCENE...]     of these scenes, or of all: ball, bunny, sky, room, lens
 
 Mitsuba and LuxCore are installed from PyPI into OUT/venv; POV-Ray is Debian's package povray, ImageMagick and glmark2-data are asked for too.
 Each program has the settings that do best at the scene, of those that we tried; Nephroid has its defaults, and a second time no smoothing.
@@ -14,11 +14,12 @@ program that has too much light or too little is told of by "shadow over plain l
 """
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-PACKAGES = ["mitsuba==3.9.1", "pyluxcore==2.11.2", "numpy"]
+PACKAGES = ["mitsuba==3.9.1", "pyluxcore==2.11.2", "numpy", "matplotlib", "pillow"]
 BUDGETS = [4, 12, 36]
 LONG = 90              # of each half of the reference
 LUXCORE = {
@@ -128,21 +129,21 @@ def measure(program, out, name):
 
     level = truth[where].mean()
     floor_noise = np.mean(noise[where] ** 2)
-    print(f"\n## {name}: {scene['title']}\n\n{where.sum()} pixels; noise of the reference {np.sqrt(floor_noise) / level:.4f}\n\n| program | "
-          + " | ".join(["seconds, error"] * len(BUDGETS)) + " | shadow over plain light |\n| --- | " + " | ".join(["---"] * len(BUDGETS)) + " | --- |")
+    print(f"\n## {name}: {scene['title']}\n\n{where.sum()} pixels; noise of the reference {np.sqrt(floor_noise) / level:.4f}\n")
+    print("| program | " + "seconds, error | " * len(BUDGETS) + "shadow over plain light |\n| --- | " + "--- | " * len(BUDGETS) + "--- |")
     for program_name, pictures, seconds in found:
-        cells, share_of_truth = [], None
+        cells, shadow_over_plain = [], None
         for picture, took in zip(pictures, seconds):
             grey = picture.mean(-1)
             is_aimed = program_name.split(", ")[-1] in aimed
             unit = level / grey[where].mean()
             if lit.any() and not is_aimed:
-                share_of_truth = grey[where].mean() / grey[lit].mean()
+                shadow_over_plain = grey[where].mean() / grey[lit].mean()
             error = np.sqrt(max(0, np.mean((unit * grey - truth)[where] ** 2) - floor_noise)) / level
             cells.append(f"{took:.1f} s, {error:.4f}")
             title = program_name.lower().replace(", ", "-").replace(" ", "-")
             write_png(folder / f"{title}-{len(cells)}.png", unit * picture / (4 * level))
-        print(f"| {program_name} | " + " | ".join(cells) + f" | {'-' if share_of_truth is None else f'{share_of_truth:.4f}'} |", flush=True)
+        print(f"| {program_name} | " + " | ".join(cells) + f" | {'-' if shadow_over_plain is None else f'{shadow_over_plain:.4f}'} |", flush=True)
     write_png(folder / "reference.png", np.repeat(truth[..., None], 3, -1) / (4 * level))
 
 
@@ -150,9 +151,17 @@ if __name__ == "__main__":
     if sys.argv[1:2] == ["--work"]:
         work(sys.argv[2])
         sys.exit()
-    if len(sys.argv) < 3 or not Path(sys.argv[1]).is_file() or not set(sys.argv[3:]) <= set(BEST):
-        sys.exit("usage: peers.py PROGRAM OUT [ball] [bunny] [sky] [room], PROGRAM being the program, as build/release/bin/nephroid")
-    target = Path(sys.argv[2]).absolute()
+    names = [*BEST, "lens"]
+    if len(sys.argv) < 3 or not Path(sys.argv[1]).is_file() or not set(sys.argv[3:]) <= set(names):
+        sys.exit(f"usage: peers.py PROGRAM OUT [SCENE...], PROGRAM being the program, as build/release/bin/nephroid; scenes: {', '.join(names)}")
+    nephroid_program, target = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).absolute()
+    missing = [program for program in ("povray", "convert") if not shutil.which(program)]
+    if missing:
+        sys.exit(f"there is no {' and no '.join(missing)}: apt install povray imagemagick glmark2-data libllvm19")
     in_venv(target)
-    for scene_name in sys.argv[3:] or BEST:
-        measure(Path(sys.argv[1]).resolve(), target, scene_name)
+    for scene_name in sys.argv[3:] or names:
+        if scene_name == "lens":
+            from peers_lens import measure_lens
+            measure_lens(nephroid_program, target)
+        else:
+            measure(nephroid_program, target, scene_name)
