@@ -24,8 +24,8 @@ struct DispersionOptions {
 };
 
 /// Fraunhofer's lines e, d, F and C (Hg, He, H, H), by which glass catalogues tell n and the Abbe number, and the ends of the grid.
-constexpr double line_F = 486.1327, line_e = 546.0740, line_d = 587.5618, line_C = 656.2725;
-const std::vector<double> usual_nm{optics::first_nm, line_F, line_e, line_d, line_C, optics::last_nm};
+const std::vector<double> usual_nm{optics::first_nm,  optics::line_f_nm, optics::line_e_nm,
+                                   optics::line_d_nm, optics::line_c_nm, optics::last_nm};
 
 Json or_null(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
 
@@ -41,7 +41,7 @@ Json to_json(const std::string& file, const optics::DispersionCurve& curve, cons
 /// V_d = (n_d - 1) / (n_F - n_C); empty where the data does not reach the three lines or has no dispersion.
 std::optional<double> abbe_number(const optics::DispersionCurve& curve)
 {
-  const optics::IndexSample d = curve.sample(line_d), f = curve.sample(line_F), c = curve.sample(line_C);
+  const optics::IndexSample d = curve.sample(optics::line_d_nm), f = curve.sample(optics::line_f_nm), c = curve.sample(optics::line_c_nm);
   if (d.extrapolated || f.extrapolated || c.extrapolated || !d.n || !f.n || !c.n || *f.n == *c.n) return std::nullopt;
   return (*d.n - 1) / (*f.n - *c.n);
 }

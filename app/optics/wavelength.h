@@ -16,6 +16,9 @@ using Spectrum = std::array<double, wavelength_count>;
 
 inline constexpr int wavelength_nm(int index) { return first_nm + index; }
 
+/// Fraunhofer's lines, at which indices of refraction are given; the Abbe number is (n_d - 1) / (n_F - n_C).
+inline constexpr double line_f_nm = 486.1327, line_e_nm = 546.0740, line_d_nm = 587.5618, line_c_nm = 656.2725;
+
 /// Every index in order: one cluster of all wavelengths, where a path has all of them, or any one.
 inline std::vector<int> all_wavelengths()
 {

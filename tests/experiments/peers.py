@@ -8,8 +8,7 @@ Mitsuba and LuxCore are installed from PyPI into OUT/venv; POV-Ray is Debian's p
 Each program has the settings that do best at the scene, of those that we tried; Nephroid has its defaults, and a second time no smoothing.
 
 The reference is a long run of Mitsuba, which has no bias: the mean of two halves, whose difference says how much noise it has. An error is
-the root mean square of the distance to it, less that noise, over the mean there: of the glass' shadow on the floor, or
-of all floor where a sky or a lamp lights it from many sides. Units differ: each picture is scaled to the reference's mean there. So a
+the root mean square of the distance to it, less that noise, over the mean there: of the glass' shadow on the floor, or of all floor where a sky or a lamp lights it from many sides. Units differ: each picture is scaled to the reference's mean there. So a
 program that has too much light or too little is told of by "shadow over plain light", where it has both.
 """
 import json
@@ -20,7 +19,7 @@ import sys
 from pathlib import Path
 
 PACKAGES = ["mitsuba==3.9.1", "pyluxcore==2.11.2", "numpy", "matplotlib", "pillow"]
-BUDGETS = [4, 12, 36]
+BUDGETS = [4, 12, 36]  # processor seconds
 LONG = 90              # of each half of the reference
 LUXCORE = {
     "bidirectional": {"renderengine.type": "BIDIRCPU", "light.maxdepth": 33, "path.maxdepth": 33, "sampler.type": "RANDOM"},

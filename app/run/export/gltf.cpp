@@ -19,11 +19,6 @@ namespace {
 using Json = Glb::Json;
 using std::numbers::pi;
 
-constexpr double most_lumens = 683; ///< a watt at 555 nm, by the definition of the candela
-
-/// Fraunhofer's lines F, d and C in nanometres.
-constexpr double line_f = 486.1327, line_d = 587.5618, line_c = 656.2725;
-
 double at(const optics::Spectrum& spectrum, double nm)
 {
   const double place = nm - optics::first_nm;
@@ -114,10 +109,10 @@ private:
       attributes["TEXCOORD_0"] = glb_.places(places);
     }
     const std::size_t corners = glb_.corners(mesh.triangles), material = material_of_object(object, caustic);
-    const std::size_t made =
+    const std::size_t mesh_index =
         glb_.add("meshes", {{"name", object.name},
                             {"primitives", {{{"attributes", std::move(attributes)}, {"indices", corners}, {"material", material}}}}});
-    add_node({{"name", object.name}, {"mesh", made}, {"translation", list(placed(middle))}});
+    add_node({{"name", object.name}, {"mesh", mesh_index}, {"translation", list(placed(middle))}});
   }
 
   /// With the vertices that it has alone.
@@ -195,7 +190,7 @@ private:
     for (const scene::Object& object : scene_.objects)
       if (&material_of(scene_, object) == &material)
         thickness = std::max(thickness, 2 * static_cast<double>(object.bounds.radius) * metres_);
-    const double n = at(material.n, line_d), spread = at(material.n, line_f) - at(material.n, line_c);
+    const double n = at(material.n, optics::line_d_nm), spread = at(material.n, optics::line_f_nm) - at(material.n, optics::line_c_nm);
     Json made{{"name", material.name},
               {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0}}}};
     Json& extensions = made["extensions"];

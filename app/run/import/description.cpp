@@ -177,7 +177,7 @@ private:
     if (light.power_w > 0) made_.scene.lights.push_back(light);
   }
 
-  double watts(const LightColour& colour) const { return colour.watts_per_lumen * 683 * from_.unit; }
+  double watts(const LightColour& colour) const { return colour.watts_per_lumen * most_lumens * from_.unit; }
 
   void add(const DescribedLight& light)
   {

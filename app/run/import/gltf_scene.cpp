@@ -37,8 +37,8 @@ std::vector<std::size_t> roots_of(const GltfValue& root, std::size_t count)
   return root.item("scenes", root.has("scene") ? root.index("scene", scenes.size(), "scenes") : 0).indices("nodes", count, "nodes");
 }
 
-// Fraunhofer's lines F, d and C, in micrometres.
-constexpr double line_f = 0.4861327, line_d = 0.5875618, line_c = 0.6562725;
+// In micrometres, as Cauchy's formula has them.
+constexpr double line_f = optics::line_f_nm / 1000, line_d = optics::line_d_nm / 1000, line_c = optics::line_c_nm / 1000;
 
 bool is_textured(const GltfValue& material)
 {
@@ -86,8 +86,6 @@ std::string advice_on_glass(const GltfValue& material, const std::string& name)
                      "--set 'scene.materials.{}={{\"type\": \"dielectric\", \"dispersion\": {}}}'",
                      name, sign, name, material.extension("KHR_materials_ior").number("ior", 1.5));
 }
-
-constexpr double most_lumens = 683; ///< a watt at 555 nm, by the definition of the candela
 
 double sum(const optics::Spectrum& spectrum)
 {

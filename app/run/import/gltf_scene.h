@@ -38,7 +38,9 @@ preset::Reflectance reflectance_of(const std::array<double, 3>& rgb);
 /// name: for notes, which say what has no counterpart.
 preset::Material material_of(const GltfValue& value, const std::string& name, std::vector<std::string>& notes);
 
-/// Lumens a watt of 380..780 nm: 683 times the mean of the eye's luminosity, weighted by the spectrum.
+inline constexpr double most_lumens = 683; ///< a watt at 555 nm, by the definition of the candela
+
+/// Lumens a watt of 380..780 nm: most_lumens times the mean of the eye's luminosity, weighted by the spectrum.
 double lumens_per_watt(const optics::Spectrum& spectrum);
 
 /// A light's spectrum and how its figures become watts.
