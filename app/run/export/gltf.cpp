@@ -64,7 +64,7 @@ void add(const scene::Ellipsoid& ellipsoid, scene::Mesh& mesh)
 class Writer {
 public:
   Writer(const scene::Scene& scene, const preset::Preset& preset, const std::vector<Caustic>& caustics)
-      : scene_(scene), preset_(preset), metres_(scene.metres_per_unit)
+      : scene_(scene), metres_(scene.metres_per_unit)
   {
     glb_.json["asset"] = {{"version", "2.0"}, {"generator", "Nephroid"}};
     glb_.json["scene"] = 0;
@@ -256,7 +256,6 @@ private:
   }
 
   const scene::Scene& scene_;
-  const preset::Preset& preset_;
   double metres_;
   Glb glb_;
   std::unordered_map<int, std::size_t> materials_;
