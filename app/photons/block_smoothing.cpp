@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 namespace nephroid::photons {
@@ -18,11 +19,8 @@ constexpr double most_needed = 24;
 double pixels_needed(const Blocks& blocks, const Noisy& layer)
 {
   const std::vector<double> light = light_of(layer.rgb), portion = portions(light, layer.draw, blocks.across(), blocks.down());
-  double needed = 0, all = 0;
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    needed += std::max(portion[i] / (Smoothing::noise * Smoothing::noise), light[i]);
-    all += light[i];
-  }
+  const double all = std::reduce(light.begin(), light.end());
+  const double needed = std::reduce(portion.begin(), portion.end()) / (Smoothing::noise * Smoothing::noise);
   return all > 0 ? needed / all * blocks.edge * blocks.edge : 1;
 }
 
@@ -68,33 +66,44 @@ Noisy BlockSmoothing::pixels_of(const Blocks& blocks, Noisy layer)
 
 void BlockSmoothing::spread(Noisy& caustics, const Smoothing::Known& known)
 {
-  auto level = levels_.end() - 1;
+  std::size_t chosen = levels_.size() - 1;
   if (first_.edge > 1) {
     const double needed = pixels_needed(first_, means(first_, caustics));
-    while (level != levels_.begin() && needed / level->blocks.edge / level->blocks.edge > most_needed) --level;
+    while (chosen > 0 && needed / levels_[chosen].blocks.edge / levels_[chosen].blocks.edge > most_needed) --chosen;
   }
-  if (level->blocks.edge == 1) return level->smoothing.spread(caustics.rgb, caustics.draw, known);
-  Noisy blocks = means(level->blocks, caustics);
-  if (level->blocks.edge >= first_.edge) { // the pixels hold next to nothing
-    caustics = pixels_of(level->blocks, std::move(blocks));
+  if (levels_[chosen].blocks.edge >= first_.edge && first_.edge > 1) { // the pixels hold next to nothing
+    caustics = pixels_of(levels_[chosen].blocks, means(levels_[chosen].blocks, caustics));
     return;
   }
-  level->smoothing.spread(blocks.rgb, blocks.draw);
-  Noisy spread = between(level->blocks, blocks);
-  keep_fine(std::move(caustics), spread);
-  caustics = std::move(spread);
+  const Noisy plain = std::move(caustics);
+  const std::vector<double> light = light_of(plain.rgb), portion = portions(light, plain.draw, first_.width, first_.height);
+  const auto mix_in = [&](const Noisy& estimate) {
+    mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, caustics.rgb, caustics.draw);
+  };
+  caustics = spread_in(levels_[chosen], plain, known);
+  for (std::size_t finer = chosen + 1; finer < levels_.size(); ++finer) {
+    Noisy fine = spread_in(levels_[finer], plain, known);
+    // Where few portions fell, or none, their noise cannot be told: there nothing speaks for the finer estimate.
+    constexpr double least_portions = 16, around = 15 * 15; // pixels
+    const std::vector<double> coarse_light = light_of(caustics.rgb);
+    for (std::size_t i = 0; i < light.size(); ++i)
+      if (portion[i] <= 0 || coarse_light[i] * around < least_portions * portion[i])
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) fine.rgb[c] = caustics.rgb[c], fine.draw[c] = caustics.draw[c];
+    mix_in(fine);
+  }
+  for (std::size_t coarser = chosen; coarser > 0 && levels_[coarser - 1].blocks.edge < first_.edge; --coarser)
+    mix_in(spread_in(levels_[coarser - 1], plain, known));
 }
 
-void BlockSmoothing::keep_fine(Noisy plain, Noisy& spread) const
+Noisy BlockSmoothing::spread_in(Level& level, Noisy plain, const Smoothing::Known& known)
 {
-  const std::vector<double> light = light_of(plain.rgb), portion = portions(light, plain.draw, first_.width, first_.height),
-                            light_spread = light_of(spread.rgb);
-  // Where few portions fell, or none, their noise cannot be told: there nothing speaks for the plain layer.
-  constexpr double least_portions = 16, around = 15 * 15; // pixels
-  for (std::size_t i = 0; i < light.size(); ++i)
-    if (portion[i] <= 0 || light_spread[i] * around < least_portions * portion[i])
-      for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) plain.rgb[c] = spread.rgb[c], plain.draw[c] = spread.draw[c];
-  mix(plain.rgb, plain.draw, {plain.rgb, plain.draw}, light, first_.width, first_.height, spread.rgb, spread.draw);
+  if (level.blocks.edge == 1) {
+    level.smoothing.spread(plain.rgb, plain.draw, known);
+    return plain;
+  }
+  Noisy blocks = means(level.blocks, plain);
+  level.smoothing.spread(blocks.rgb, blocks.draw);
+  return between(level.blocks, blocks);
 }
 
 } // namespace nephroid::photons

@@ -27,17 +27,17 @@ public:
   Smoothing& pixels() { return levels_.back().smoothing; }
   /// blocks: those of a first picture, whose `layer` has a value for each. The layer of pixels, smoothed.
   Noisy pixels_of(const Blocks& blocks, Noisy layer);
-  /// Spreads caustics in blocks so large that their noise needs no wide kernels. known: as far as pixel for pixel is enough.
+  /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in what smaller and larger blocks make of them,
+  /// where the halves say that it is better (mixture.h). known: for single pixels.
   void spread(Noisy& caustics, const Smoothing::Known& known);
 
 private:
-  /// Mixes the plain layer into the one that was spread in blocks, where that is the better.
-  void keep_fine(Noisy plain, Noisy& spread) const;
-
   struct Level {
     Blocks blocks;
     Smoothing smoothing;
   };
+  static Noisy spread_in(Level& level, Noisy plain, const Smoothing::Known& known);
+
   std::vector<Level> levels_; ///< from twice first_edge to single pixels, each with half the edge of that before
   Blocks first_;
 };

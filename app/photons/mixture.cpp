@@ -12,14 +12,22 @@ namespace {
 
 /// How far around a pixel its errors are asked for, and its light, in pixels.
 constexpr int error_reach = 8, light_reach = 7;
-constexpr double dark = 0.01; ///< below which light counts as if it were that: of white
 
 } // namespace
+
+double least_light(std::span<const double> light)
+{
+  double sum = 0, count = 0;
+  for (const double of_pixel : light)
+    if (of_pixel > 0) sum += of_pixel, ++count;
+  return count > 0 ? 0.01 * sum / count : 1;
+}
 
 void mix(std::span<const float> picture, std::span<const float> picture_draw, const Estimate& estimate, std::span<const double> light,
          int width, int height, std::vector<float>& rgb, std::vector<float>& error_draw)
 {
   const auto draw_of = [&](std::size_t c) { return estimate.error_draw.empty() ? 0.0 : estimate.error_draw[c]; };
+  const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
   // term(c, r): of a channel of a pixel. The sum of the three over the light there.
   const auto over_light = [&](std::size_t i, const auto& term) {
@@ -27,13 +35,20 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, co
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c, static_cast<double>(estimate.rgb[c]) - rgb[c]);
     return sum / (dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, light_reach));
   };
-  const auto slope = [&](std::size_t i) {
+  const SummedArea slopes(width, height, [&](std::size_t i) {
     return over_light(i, [&](std::size_t c, double r) {
       return r * (static_cast<double>(rgb[c]) - picture[c]) + (draw_of(c) - error_draw[c]) * picture_draw[c];
     });
-  };
-  const SummedArea slopes(width, height, slope);
-  const SummedArea scatters(width, height, [&](std::size_t i) { return std::pow(slope(i), 2); });
+  });
+  // A draw of the noise that is in r (b - p).
+  const SummedArea scatters(width, height, [&](std::size_t i) {
+    return std::pow(over_light(i,
+                               [&](std::size_t c, double r) {
+                                 return r * (static_cast<double>(error_draw[c]) - picture_draw[c]) +
+                                        (draw_of(c) - error_draw[c]) * (static_cast<double>(rgb[c]) - picture[c]);
+                               }),
+                    2);
+  });
   const SummedArea squares(width, height, [&](std::size_t i) { return over_light(i, [](std::size_t, double r) { return r * r; }); });
   for_ranges(light.size(), std::size_t{1} << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {

@@ -143,12 +143,12 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
                                      std::span<const float> a_spread, std::span<const float> b_spread, std::span<const double> light,
                                      int width, int height)
 {
-  constexpr double least_light = 0.01; // of white
+  const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
   const auto over_light = [&](std::size_t i, const auto& term) {
     double sum = 0;
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c);
-    return sum / (least_light + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_reach));
+    return sum / (dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_reach));
   };
   const SummedArea change(width, height, [&](std::size_t i) {
     return over_light(i, [&](std::size_t c) { return std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2); });

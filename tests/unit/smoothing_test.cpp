@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smoothed caustics on a floor that fills the lower part of the picture and a wall that fills the upper, from made pictures.
+#include "photons/block_smoothing.h"
 #include "photons/smoothing.h"
 #include "tests/support/loaded_scenes.h"
 
@@ -316,6 +317,30 @@ TEST_F(Smoothing, finds_what_is_lacking_in_what_is_known)
   EXPECT_NEAR(sum(photons.rgb), power, 0.01 * power);
   const Moments after = moments(photons.rgb, 0, size, 0);
   EXPECT_LT(after.variance + std::pow(after.mean - density, 2), 0.1 * noise);
+}
+
+// What hardly is noisy is neither left in the blocks of a first picture, nor as noisy as it came where it is even.
+TEST_F(Smoothing, in_blocks_keeps_what_a_pixel_shows_and_evens_what_is_even)
+{
+  const auto is_glint = [](int x, int y) { return x % 12 == 5 && y % 12 == 5; };
+  Photons photons = scatter([&](int x, int y) { return is_glint(x, y) && x < size / 2 ? 40000. : 400.; }, 9);
+  photons::BlockSmoothing blocks(scene, bvh, photons::Smoothing::Spread::where_it_helps, 8);
+  photons::Noisy layer{photons.rgb, photons.error_draw};
+  blocks.spread(layer, {});
+  int glints = 0;
+  double noise2 = 0, noise2_before = 0;
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x) {
+      const std::size_t red = 3 * static_cast<std::size_t>(y * size + x);
+      if (x < size / 2 && is_glint(x, y)) {
+        EXPECT_NEAR(layer.rgb[red], 40000, 0.03 * 40000) << x << ' ' << y;
+        ++glints;
+      }
+      if (x > size / 2 + 14 && y > size / 2 + 6)
+        noise2 += std::pow(layer.rgb[red] - 400, 2), noise2_before += std::pow(photons.rgb[red] - 400, 2);
+    }
+  EXPECT_EQ(glints, 8);
+  EXPECT_LT(noise2, 0.25 * noise2_before);
 }
 
 TEST_F(Smoothing, does_nothing_without_a_draw_or_in_the_dark)
