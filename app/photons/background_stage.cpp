@@ -72,7 +72,7 @@ class BackgroundStage final : public EyeStage {
 public:
   BackgroundStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : EyeStage(world, "background", settings), radiance_(scene.environment->radiance),
-        tables_(make_background_tables(*scene.environment, settings.pixel_samples)),
+        tables_(make_background_tables(*scene.environment, *settings.pixel_samples)),
         texels_(compute::Buffer(world.context, "environment", scene.environment->rgb)),
         primary_xyz_(compute::Buffer(world.context, "colours of the primaries", tables_.primary_xyz)),
         wavelengths_(compute::Buffer(world.context, "wavelengths", optics::all_wavelengths())),
@@ -117,7 +117,7 @@ plan::Pass background_pass(const PlanInput& input)
   if (environment->is_black()) return {name, false, "the environment is black"};
   return {name, true,
           fmt::format("{}, seen directly, through glass and in mirrors; {} a pixel{}", size_of(*environment),
-                      counted(input.settings.pixel_samples, "sample"), more_through_glass(input)),
+                      counted(*input.settings.pixel_samples, "sample"), more_through_glass(input)),
           "/spectral/background", true};
 }
 

@@ -86,8 +86,11 @@ inline void describe(preset::Fields& v, Settings& s)
           s.photons_per_pass, {.bounds = preset::within(1, 1 << 24)});
   v.field("indirect_photons_per_pass", "Photons of the layer \"indirect\" in one pass.", s.indirect_photons_per_pass,
           {.bounds = preset::within(1, 1 << 24)});
-  v.field("pixel_samples", "Most samples of a pixel that shows neither glass nor a mirror, of the layers \"direct\" and \"background\".",
-          s.pixel_samples, {.bounds = preset::within(1, 1 << 20)});
+  v.field(
+      "pixel_samples",
+      "Most samples of a pixel that shows neither glass nor a mirror, of the layers \"direct\" and \"background\". Without: 64, and 4096 "
+      "where lamps have a size or the environment lights.",
+      s.pixel_samples, {.bounds = preset::within(1, 1 << 20)});
   v.field("max_surfaces", "Interfaces a path may meet before it counts as lost.", s.max_surfaces, {.bounds = preset::within(1, 1024)});
   v.field("sppm", "Progressive photon mapping.", s.sppm);
   v.field("direct", "Compute the layer \"direct\": light that reaches a diffuse surface unbent.", s.direct);

@@ -37,7 +37,7 @@ plan::Pass direct_pass(const PlanInput& input)
   const std::string missing = input.objects.diffuse == 0 ? "the scene has no diffuse surface" : no_light(input);
   if (!missing.empty()) return tracing::not_needed(name, input.leave_out.direct, missing);
   return tracing::needed(name, fmt::format("{} lit by {}, {} a pixel{}", counted(input.objects.diffuse, "diffuse object"),
-                                           counted(shining_lights(input), "light"), counted(input.settings.pixel_samples, "sample"),
+                                           counted(shining_lights(input), "light"), counted(*input.settings.pixel_samples, "sample"),
                                            input.settings.relight ? "" : more_through_glass(input)));
 }
 

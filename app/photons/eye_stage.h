@@ -22,9 +22,9 @@ inline const char* more_through_glass(const PlanInput& input)
 class EyeStage : public Stage {
 public:
   EyeStage(DeviceWorld& world, const char* layer, const Settings& settings)
-      : world_(world), layer_(layer), enough_(static_cast<std::uint32_t>(settings.pixel_samples)),
+      : world_(world), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)),
         film_(world.zeroed(std::string("film ") + layer, world.film_size())), first_film_(world.first_film()),
-        pixels_(world, settings.pixel_samples)
+        pixels_(world, *settings.pixel_samples)
   {
   }
 

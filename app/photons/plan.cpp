@@ -170,6 +170,14 @@ void add(PlanPart part, plan::Plan& plan)
   std::ranges::move(part.notes, std::back_inserter(plan.notes));
 }
 
+/// Settings::pixel_samples, where nobody says. Where light comes from one point of each lamp, only edges within pixels take samples.
+int enough_samples(const scene::Scene& scene)
+{
+  const bool all_points = std::ranges::all_of(
+      scene.lights, [](const scene::Light& light) { return !scene::is_environment(light) && light.type != preset::Light::Type::area; });
+  return all_points ? 64 : 4096;
+}
+
 } // namespace
 
 plan::Pass not_asked_for(const std::string& name, const std::string& field)
@@ -202,11 +210,13 @@ std::string size_of(const scene::Environment& environment)
 
 bool RunPlan::runs(const RunPart& part) const { return std::ranges::count(parts, &part) > 0; }
 
-RunPlan make_plan(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
+RunPlan make_plan(const preset::Preset& preset, const Settings& wanted, const scene::Scene& scene, const scene::Bvh& bvh,
                   const tracing::LeaveOut& leave_out)
 {
   RunPlan plan;
-  plan.settings = settings;
+  plan.settings = wanted;
+  if (!plan.settings.pixel_samples) plan.settings.pixel_samples = enough_samples(scene);
+  const Settings& settings = plan.settings;
   plan.tables = make_run_tables(preset, settings, scene, bvh, leave_out);
   PlanInput input{preset, settings, scene, bvh, leave_out, plan.tables, tracing::count_objects(scene)};
   input.caustics = caustics_pass(input);

@@ -39,8 +39,8 @@ struct Settings {
   bool relight = false;                    ///< keep a layer for each cluster, so that a light's spectrum can change without a new run
   int photons_per_pass = 1 << 18;          ///< photons sent towards the caustic objects in one pass; sppm: for each cluster
   int indirect_photons_per_pass = 1 << 18; ///< photons of the layer "indirect" in one pass
-  int pixel_samples = 64;                  ///< of a pixel without glass and mirrors, of the layers direct and background: the most
-  int max_surfaces = 32;                   ///< interfaces a path may meet before it is counted as lost
+  std::optional<int> pixel_samples; ///< of a pixel without glass and mirrors, of the layers direct and background: the most; RunPlan has it
+  int max_surfaces = 32;            ///< interfaces a path may meet before it is counted as lost
   Sppm sppm;
   bool direct = true;     ///< layer: light that reaches a diffuse surface unbent
   bool caustic = true;    ///< layer: light that met glass or a mirror, then one diffuse surface

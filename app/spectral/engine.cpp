@@ -34,7 +34,7 @@ preset::Settings reference(const preset::Preset& preset, int passes)
   if (!recipe) s = brute_force(s);
   s.smoothing = photons::Settings::Smoothing::off; // it would be a bias
   if (s.effort == photons::Settings::Effort::automatic) s.effort = photons::Settings::Effort::power;
-  s.pixel_samples = std::max(s.pixel_samples, passes); // the direct layer as well converged as the caustic
+  s.pixel_samples = std::max(s.pixel_samples.value_or(0), passes); // the direct layer as well converged as the caustic
   return settings;
 }
 

@@ -160,7 +160,7 @@ public:
     while (!job->finished()) job->step();
     return job->snapshot();
   }
-  int samples() const { return spectral::settings(preset_).pixel_samples; }
+  int samples() const { return *plan_.settings.pixel_samples; }
 
 private:
   preset::Preset preset_;

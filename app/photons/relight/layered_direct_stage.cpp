@@ -14,7 +14,7 @@ namespace {
 class LayeredDirectStage final : public Stage {
 public:
   LayeredDirectStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
-      : world_(world), relighting_(relighting_of(world, scene)), pixel_samples_(settings.pixel_samples),
+      : world_(world), relighting_(relighting_of(world, scene)), pixel_samples_(*settings.pixel_samples),
         unbent_(world.context, "film direct", relighting_.unbent, world.tables.lights.size(), world.halves, world.defines),
         bent_(world.context, "film direct through glass", relighting_.bent,
               world.tables.lights.size() * world.tables.wavelengths.clusters.size(), world.halves, world.defines),

@@ -64,7 +64,7 @@ RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, c
   tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass());
   tables.scene.max_surfaces = settings.max_surfaces;
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
-  set_scales(scene, settings.pixel_samples, tables);
+  set_scales(scene, *settings.pixel_samples, tables);
   return tables;
 }
 
