@@ -17,6 +17,10 @@ void add_runs(py::module_& module);     ///< a run on its own thread
 void add_pictures(py::module_& module); ///< snapshots of a run
 void add_optics(py::module_& module);   ///< dispersion, clusters, segmentation, metrics
 
+/// To be called before OpenCL is. Throws failed in a process that was forked from one where it ran already: there it waits for threads that
+/// are not there.
+void use_opencl();
+
 /// An array that shows values where they are, and cannot be written to; owner: has them.
 template <class T, class Owner>
 py::array lent(const std::shared_ptr<const Owner>& owner, const std::vector<T>& values, std::vector<py::ssize_t> shape)

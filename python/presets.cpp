@@ -6,7 +6,17 @@
 #include "python/bindings.h"
 #include "run/run.h"
 
+#include <unistd.h>
+
 namespace nephroid::python {
+
+void use_opencl()
+{
+  static const pid_t first = ::getpid();
+  if (first != ::getpid())
+    throw failed("device", "this process was forked from one that has opened devices, and they work there alone", {},
+                 "use multiprocessing's start method 'spawn'");
+}
 
 void add_presets(py::module_& module)
 {
@@ -31,6 +41,7 @@ void add_presets(py::module_& module)
     return list;
   });
   module.def("devices", [] {
+    use_opencl();
     std::vector<py::dict> list;
     for (const compute::DeviceInfo& d : compute::list_devices())
       list.push_back(py::dict(py::arg("index") = d.index, py::arg("name") = d.name, py::arg("type") = d.type,

@@ -55,6 +55,7 @@ class Run {
 public:
   Run(const preset::Preset& preset, std::string device) : process_(::getpid()), worker_(new job::Worker, &end)
   {
+    use_opencl();
     worker_->start([this, preset, device = std::move(device)] { return make(preset, device); });
   }
   ~Run() { close(); }
@@ -123,7 +124,7 @@ private:
   {
     if (!is_of_this_process())
       throw failed("run", "belongs to the process that started it, and this one was forked from that", {},
-                   "start a run here, or use multiprocessing's start method 'spawn'");
+                   "use multiprocessing's start method 'spawn'");
   }
 
   std::shared_ptr<job::Worker> worker() const

@@ -2,6 +2,7 @@
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
 #include "run/run.h"
 #include "base/files.h"
+#include "base/hashed_bytes.h"
 #include "base/interrupts.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
@@ -115,6 +116,21 @@ void run_all(const RunOptions& options, std::vector<Target>& targets, const std:
   }
 }
 
+/// Throws bad_input on the ranks that were asked for other runs than rank 0, before any begins.
+void require_same_runs(const RunOptions& options, const std::vector<Target>& targets, team::Ranks& ranks)
+{
+  std::string names, presets;
+  for (const Target& target : targets) {
+    names += (names.empty() ? "" : " ") + target.label;
+    presets += preset::to_json(target.preset);
+  }
+  constexpr std::size_t a_line = 200;
+  team::require_same(ranks, "list of runs",
+                     names.size() <= a_line ? names : fmt::format("{} of them, {:016x}", targets.size(), hash_of(names)));
+  team::require_same(ranks, "list of frames", options.frames.empty() ? "all" : options.frames);
+  team::require_same(ranks, "preset", fmt::format("{:016x}", hash_of(presets)));
+}
+
 /// Of a sweep each rank does the next run, alone, whenever it is free.
 void deal_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared,
                team::Ranks& ranks)
@@ -138,6 +154,7 @@ void run_preset(const RunOptions& options, const std::stop_token& interrupted, c
   Shared shared;
   if (!ranks) return run_all(options, targets, interrupted, shared);
   shared.device_of_several = ranks->number_on_host();
+  require_same_runs(options, targets, *ranks);
   if (targets.size() > 1) return deal_runs(options, targets, interrupted, shared, *ranks);
   shared.ranks = ranks;
   run_one(options, targets.front(), interrupted, shared);

@@ -373,9 +373,11 @@ void require_same(const RunOptions& options, const preset::Preset& preset, const
 void require_shared(team::Ranks& ranks, const fs::path& file)
 {
   ranks.wait_for_first();
+  std::optional<Error> error;
   if (!is_there(file))
-    throw bad_input(ranks.name(), fmt::format("does not see {}, which rank 0 has written", file.string()),
-                    "expected an output folder that all nodes share", "choose another one with -o");
+    error = bad_input(ranks.name(), fmt::format("does not see {}, which rank 0 has written", file.string()),
+                      "expected an output folder that all nodes share", "choose another one with -o");
+  team::require_all(ranks, error);
 }
 
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared)

@@ -2,9 +2,11 @@
 // The ranks of an MPI job as a team. MPI itself is in a module of its own (mpi/module.cpp), which is loaded where mpirun or srun has
 // started this process, and only there.
 #pragma once
+#include "base/error.h"
 #include "base/team.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace nephroid::team {
@@ -38,7 +40,10 @@ using OpenRanks = Ranks* (*)();
 /// no MPI or the module cannot be loaded.
 std::shared_ptr<Ranks> open_ranks();
 
-/// Throws bad_input on each rank whose `mine` is not that of rank 0. what: "version", for the message.
+/// Returns where no rank has an error, and throws what this one has. Where others have one, waits for the end that they bring.
+void require_all(Ranks& ranks, const std::optional<Error>& error);
+
+/// Throws bad_input on each rank whose `mine` is not that of rank 0. what: "version", for the message. No rank goes on where one has.
 void require_same(Ranks& ranks, const std::string& what, const std::string& mine);
 
 } // namespace nephroid::team

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import atexit as _atexit
 import json as _json
+import os as _os
 import time as _time
 import weakref as _weakref
 from dataclasses import dataclass
@@ -25,8 +26,6 @@ from .core._nephroid import BadInput, Error
 from .optics import Cluster, Clusters, Dispersion, Lights, clusters, compare, dispersion, read_picture, segment, wavelengths_nm
 
 if TYPE_CHECKING:
-    import os
-
     from .core._nephroid import Doubles, Floats
 
 __version__: str = _core.version
@@ -37,15 +36,29 @@ __all__ = ["BadInput", "Cluster", "Clusters", "Dispersion", "Error", "Lights", "
 # Presets
 
 
+def _overrides(values: Mapping[str, Any]) -> list[str]:
+    """As `nephroid run --set` has them. NumPy's numbers and arrays become those of JSON."""
+    if not isinstance(values, Mapping):
+        raise BadInput(f"values: expected a dict such as {{'seed': 3}}, not {type(values).__name__}")
+    overrides = []
+    for path, value in values.items():
+        try:
+            overrides.append(f"{path}={_json.dumps(value, default=lambda of_numpy: of_numpy.tolist())}")
+        except (AttributeError, TypeError, ValueError):
+            raise BadInput(f"{path}: expected what JSON can hold: numbers, text, lists and dicts; not {type(value).__name__}") from None
+    return overrides
+
+
 class Preset:
     """The whole state of a run. Immutable: set() gives another one.
 
     name: a file, or the name of a shipped preset ("first-light"); both also without ".json". Throws BadInput as reading does.
     """
 
-    def __init__(self, name: str | os.PathLike[str], values: Mapping[str, Any] | None = None) -> None:
-        overrides = [f"{path}={_json.dumps(value)}" for path, value in (values or {}).items()]
-        read = _core.read_presets(str(name), overrides)
+    def __init__(self, name: str | _os.PathLike[str], values: Mapping[str, Any] | None = None) -> None:
+        if not isinstance(name, (str, _os.PathLike)):
+            raise BadInput(f"Preset: expected the name of a preset or its file, not {type(name).__name__}; a dict goes to Preset.from_json")
+        read = _core.read_presets(str(name), _overrides(values or {}))
         if len(read) > 1:
             raise BadInput(f"{name}: is a sweep of {len(read)} runs; expected one run; take nephroid.sweep('{name}')")
         self._core = read[0]
@@ -76,8 +89,7 @@ class Preset:
 
     def with_values(self, values: Mapping[str, Any]) -> Preset:
         """The same for several at once: what they are together is checked, not each alone."""
-        overrides = [f"{path}={_json.dumps(value)}" for path, value in values.items()]
-        return self._of(_core.parse_preset(self._core.json(), self._core.source, overrides))
+        return self._of(_core.parse_preset(self._core.json(), self._core.source, _overrides(values)))
 
     def get(self, path: str) -> Any:
         """A value by the same path; the preset as a dict where it is empty."""
@@ -109,8 +121,11 @@ class Preset:
     def __hash__(self) -> int:
         return hash(self.to_json())
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Preset.from_json, (self.to_json(), self._core.source)
 
-def sweep(name: str | os.PathLike[str]) -> list[Preset]:
+
+def sweep(name: str | _os.PathLike[str]) -> list[Preset]:
     """The runs of a preset with a sweep, in its order; of another preset, that one."""
     return [Preset._of(core) for core in _core.read_presets(str(name), [])]
 
@@ -295,7 +310,7 @@ class Run:
             _time.sleep(0.005)
         raise BadInput(f"spectrum: there is none of the pixel {column}, {row}; expected one of the picture, of a run that keeps spectra")
 
-    def save(self, folder: str | os.PathLike[str]) -> None:
+    def save(self, folder: str | _os.PathLike[str]) -> None:
         """The files that `nephroid run` writes, but for a checkpoint."""
         self._core.save(str(folder))
 

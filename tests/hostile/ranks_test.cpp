@@ -171,8 +171,35 @@ TEST_F(Ranks, HaveToBelongTogether)
             scratch.path(), scratch.path(), for_mpirun(scratch.path()), "mpirun")
           .wait();
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("has another preset and files than rank 0"));
+  EXPECT_THAT(ended.err, HasSubstr("has another preset than rank 0"));
   EXPECT_FALSE(fs::exists(scratch.path() / "a" / "image.exr"));
+
+  // Neither may one begin what the other is not to do.
+  const Ended sweeps = Child({"--oversubscribe",
+                              "-n",
+                              "1",
+                              program,
+                              "run",
+                              "first-light",
+                              "-o",
+                              "c",
+                              "--set",
+                              R"(sweep={"seed":[1,2]})",
+                              ":",
+                              "-n",
+                              "1",
+                              program,
+                              "run",
+                              "first-light",
+                              "-o",
+                              "c",
+                              "--set",
+                              R"(sweep={"seed":[1,3]})"},
+                             scratch.path(), scratch.path(), for_mpirun(scratch.path()), "mpirun")
+                           .wait();
+  EXPECT_EQ(sweeps.exit_code, 2);
+  EXPECT_THAT(sweeps.err, HasSubstr("has another list of runs than rank 0"));
+  EXPECT_FALSE(fs::exists(scratch.path() / "c"));
 
   const Ended wrong = run(2, {"no-such-preset"}, "b");
   EXPECT_EQ(wrong.exit_code, 2);

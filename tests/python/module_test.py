@@ -4,6 +4,7 @@ import contextlib
 import importlib.util
 import io
 import os
+import pickle
 import re
 import signal
 import subprocess
@@ -37,6 +38,9 @@ class Presets(unittest.TestCase):
         self.assertEqual(preset.engine, "spectral")
         self.assertEqual(nephroid.Preset.from_json(preset.to_json()), preset)
         self.assertNotEqual(preset, small())
+        self.assertEqual(pickle.loads(pickle.dumps(preset)), preset)
+        numbers = {"seed": np.int64(4), "scene.camera.resolution": np.array([160, 120])}
+        self.assertEqual(preset.with_values(numbers)["scene.camera.resolution"], [160, 120])
         self.assertIn("first-light", nephroid.presets())
         self.assertIn("properties", nephroid.schema())
         self.assertTrue(any(one["name"] == "photons" and one["runs"] for one in preset.plan()["passes"]))
@@ -45,6 +49,9 @@ class Presets(unittest.TestCase):
         for call, words in ((lambda: nephroid.Preset("no-such"), "there is no preset 'no-such'"),
                             (lambda: small().set("scene.camera.fov", 3), "did you mean 'fov_deg'?"),
                             (lambda: small().set("seed", -1), "expected"),
+                            (lambda: small().set("seed", small()), "seed: expected what JSON can hold"),
+                            (lambda: nephroid.Preset("first-light", ["seed=1"]), "expected a dict"),
+                            (lambda: nephroid.Preset({"seed": 1}), "expected the name of a preset"),
                             (lambda: small().get("scene.nothing"), "the preset has no such field"),
                             (lambda: nephroid.start(small().set("measure.mask", "none.png").set("reference", "none.exr")).wait(), "none")):
             with self.assertRaises(nephroid.BadInput) as raised:
@@ -209,6 +216,11 @@ if pid == 0:
             call()
         except nephroid.Error as error:
             print(error, flush=True)
+    for call in (nephroid.devices, lambda: nephroid.start("first-light")):
+        try:
+            call()
+        except nephroid.Error as error:
+            print(error, flush=True)
     run.close()
     del call, run
     os._exit(7)
@@ -219,7 +231,8 @@ print(run.wait().state)
         out, err = self.ends(process)
         lines = out.splitlines()
         self.assertEqual(["belongs to the process that started it" in line for line in lines[:6]], [True] * 6, out + err)
-        self.assertEqual(lines[6:], ["7", "stopped"], err)
+        self.assertEqual(["this process was forked" in line for line in lines[6:8]], [True] * 2, out + err)
+        self.assertEqual(lines[8:], ["7", "stopped"], err)
 
 
 class Page(unittest.TestCase):

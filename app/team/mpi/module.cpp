@@ -201,7 +201,7 @@ private:
       const Rank& other = ranks_[static_cast<std::size_t>(rank)];
       if (!is_on_host(other) || other.processes != own().processes || ::kill(other.process, 0) == 0) continue;
       throw failed(name_of(rank), fmt::format("process {} has died, and {} waits for it", other.process, name_of(rank_)), {},
-                   "go on from the last checkpoint with --resume");
+                   "go on with --resume, from the last checkpoint if there is one");
     }
   }
 
