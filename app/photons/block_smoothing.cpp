@@ -75,7 +75,7 @@ void BlockSmoothing::spread(Noisy& caustics, const Smoothing::Known& known)
     caustics = pixels_of(levels_[chosen].blocks, means(levels_[chosen].blocks, caustics));
     return;
   }
-  const Noisy plain = std::move(caustics);
+  const Noisy plain = std::exchange(caustics, {});
   const std::vector<double> light = light_of(plain.rgb), portion = portions(light, plain.draw, first_.width, first_.height);
   const auto mix_in = [&](const Noisy& estimate) {
     mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, caustics.rgb, caustics.draw);
