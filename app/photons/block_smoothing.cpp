@@ -19,9 +19,9 @@ constexpr double most_needed = 24;
 double pixels_needed(const Blocks& blocks, const Noisy& layer)
 {
   const std::vector<double> light = light_of(layer.rgb), portion = portions(light, layer.draw, blocks.across(), blocks.down());
-  const double all = std::reduce(light.begin(), light.end());
+  const double light_sum = std::reduce(light.begin(), light.end());
   const double needed = std::reduce(portion.begin(), portion.end()) / (Smoothing::noise * Smoothing::noise);
-  return all > 0 ? needed / all * blocks.edge * blocks.edge : 1;
+  return light_sum > 0 ? needed / light_sum * blocks.edge * blocks.edge : 1;
 }
 
 /// Adds to the draw of a layer in blocks what these hide of the picture: about as much as blocks twice as large hide of it, and no more
@@ -75,24 +75,25 @@ void BlockSmoothing::spread(Noisy& caustics, const Smoothing::Known& known)
     caustics = pixels_of(levels_[chosen].blocks, means(levels_[chosen].blocks, caustics));
     return;
   }
-  const Noisy plain = std::exchange(caustics, {});
+  const Noisy& plain = caustics;
   const std::vector<double> light = light_of(plain.rgb), portion = portions(light, plain.draw, first_.width, first_.height);
+  Noisy mixed = spread_in(levels_[chosen], plain, known);
   const auto mix_in = [&](const Noisy& estimate) {
-    mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, caustics.rgb, caustics.draw);
+    mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, mixed.rgb, mixed.draw);
   };
-  caustics = spread_in(levels_[chosen], plain, known);
   for (std::size_t finer = chosen + 1; finer < levels_.size(); ++finer) {
     Noisy fine = spread_in(levels_[finer], plain, known);
     // Where few portions fell, or none, their noise cannot be told: there nothing speaks for the finer estimate.
     constexpr double least_portions = 16, around = 15 * 15; // pixels
-    const std::vector<double> coarse_light = light_of(caustics.rgb);
+    const std::vector<double> coarse_light = light_of(mixed.rgb);
     for (std::size_t i = 0; i < light.size(); ++i)
       if (portion[i] <= 0 || coarse_light[i] * around < least_portions * portion[i])
-        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) fine.rgb[c] = caustics.rgb[c], fine.draw[c] = caustics.draw[c];
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) fine.rgb[c] = mixed.rgb[c], fine.draw[c] = mixed.draw[c];
     mix_in(fine);
   }
   for (std::size_t coarser = chosen; coarser > 0 && levels_[coarser - 1].blocks.edge < first_.edge; --coarser)
     mix_in(spread_in(levels_[coarser - 1], plain, known));
+  caustics = std::move(mixed);
 }
 
 Noisy BlockSmoothing::spread_in(Level& level, Noisy plain, const Smoothing::Known& known)

@@ -79,7 +79,9 @@ inline void describe(preset::Fields& v, Settings& s)
   v.field("low_discrepancy", "Photons leave the lights by a scrambled Sobol sequence.", s.low_discrepancy);
   v.field("differentials", "A splat is stretched along the way that it moves with wavelength.", s.differentials);
   v.field("smoothing",
-          "Spread caustics over up to 6 pixels around, until their noise is a quarter of them. Needs measure.estimate; not with sppm.",
+          "Spread caustics over up to 6 pixels around, or blocks of pixels, until their noise is a quarter of them. Needs "
+          "measure.estimate; not "
+          "with sppm.",
           s.smoothing);
   v.field("relight", "Keep a layer for each cluster, so that the spectrum of a light can change without a new run.", s.relight);
   v.field("photons_per_pass", "Photons sent towards the caustic objects in one pass; of the estimator sppm, for each cluster.",

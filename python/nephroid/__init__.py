@@ -57,7 +57,7 @@ class Preset:
 
     def __init__(self, name: str | _os.PathLike[str], values: Mapping[str, Any] | None = None) -> None:
         if not isinstance(name, (str, _os.PathLike)):
-            raise BadInput(f"Preset: expected the name of a preset or its file, not {type(name).__name__}; a dict goes to Preset.from_json")
+            raise BadInput(f"Preset: expected the name of a preset or its file, not {type(name).__name__}; JSON as text goes to Preset.from_json")
         read = _core.read_presets(str(name), _overrides(values or {}))
         if len(read) > 1:
             raise BadInput(f"{name}: is a sweep of {len(read)} runs; expected one run; take nephroid.sweep('{name}')")

@@ -164,42 +164,23 @@ TEST_F(Ranks, TakeTheNextRunOfASweep)
 
 TEST_F(Ranks, HaveToBelongTogether)
 {
-  const std::string program = NEPHROID_PROGRAM;
-  const Ended ended =
-      Child({"--oversubscribe", "-n",  "1",           program,    "run", "first-light", "--passes", "1",  "-o", "a", ":", "-n", "1",
-             program,           "run", "first-light", "--passes", "1",   "--seed",      "3",        "-o", "a"},
-            scratch.path(), scratch.path(), for_mpirun(scratch.path()), "mpirun")
-          .wait();
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("has another preset than rank 0"));
-  EXPECT_FALSE(fs::exists(scratch.path() / "a" / "image.exr"));
-
-  // Neither may one begin what the other is not to do.
-  const Ended sweeps = Child({"--oversubscribe",
-                              "-n",
-                              "1",
-                              program,
-                              "run",
-                              "first-light",
-                              "-o",
-                              "c",
-                              "--set",
-                              R"(sweep={"seed":[1,2]})",
-                              ":",
-                              "-n",
-                              "1",
-                              program,
-                              "run",
-                              "first-light",
-                              "-o",
-                              "c",
-                              "--set",
-                              R"(sweep={"seed":[1,3]})"},
-                             scratch.path(), scratch.path(), for_mpirun(scratch.path()), "mpirun")
-                           .wait();
+  // First-light on two ranks, the second of which is given something else.
+  const auto run_apart = [this](const std::vector<std::string>& first, const std::vector<std::string>& second) {
+    std::vector<std::string> command{"--oversubscribe"};
+    for (const auto* options : {&first, &second}) {
+      if (options == &second) command.emplace_back(":");
+      command.insert(command.end(), {"-n", "1", NEPHROID_PROGRAM, "run", "first-light", "--passes", "1", "-o", "a"});
+      command.insert(command.end(), options->begin(), options->end());
+    }
+    return Child(std::move(command), scratch.path(), scratch.path(), for_mpirun(scratch.path()), "mpirun").wait();
+  };
+  const Ended seeds = run_apart({}, {"--seed", "3"});
+  EXPECT_EQ(seeds.exit_code, 2);
+  EXPECT_THAT(seeds.err, HasSubstr("has another preset than rank 0"));
+  const Ended sweeps = run_apart({"--set", R"(sweep={"seed":[1,2]})"}, {"--set", R"(sweep={"seed":[1,3]})"});
   EXPECT_EQ(sweeps.exit_code, 2);
   EXPECT_THAT(sweeps.err, HasSubstr("has another list of runs than rank 0"));
-  EXPECT_FALSE(fs::exists(scratch.path() / "c"));
+  EXPECT_FALSE(fs::exists(scratch.path() / "a")) << "neither may begin what the other is not to do";
 
   const Ended wrong = run(2, {"no-such-preset"}, "b");
   EXPECT_EQ(wrong.exit_code, 2);
