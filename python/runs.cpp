@@ -113,7 +113,7 @@ public:
       return made_;
     }();
     if (!made || !shown || shown->stands_in) throw failed(folder, "the run has no picture yet", {}, "wait for one");
-    run::claim_folder(folder);
+    const run::ClaimedFolder claimed(folder);
     run::begin_run(folder, made->prepared);
     run::write_run(folder, made->prepared, made->device, *shown, made->reference.get(), finished);
     if (finished && shown->history) run::write_report(folder);

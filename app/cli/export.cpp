@@ -36,11 +36,12 @@ preset::Preset still(preset::Preset preset) { return preset.animation ? preset::
 preset::Preset of_caustics_alone(const ExportOptions& options, const preset::Preset& asked)
 {
   preset::Overrides overrides = options.run.overrides;
-  for (const char* more : {"engine=spectral", "white=1", "spectral.direct=false", "spectral.background=false", "spectral.indirect=false",
+  for (const char* more : {"engine=spectral", "spectral.direct=false", "spectral.background=false", "spectral.indirect=false",
                            "spectral.caustic=true", "spectral.relight=false", "spectral.estimator=splat"})
     overrides.emplace_back(more);
   if (asked.settings.type().name != "spectral" && asked.scene.environment) overrides.emplace_back("scene.environment.lights=true");
   preset::Preset preset = still(preset::read_preset(options.run.preset, overrides));
+  preset.white = 1; // whatever an animation says
   preset.reference.reset();
   preset.stop = {};
   preset.stop.seconds = options.seconds;
@@ -106,28 +107,23 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
     if (prepared.plan->layers == 0) throw bad_input(preset.source, "has no caustic: " + no_photons(*prepared.plan));
     Shared shared;
     const compute::Context& context = device_of(options.run, shared);
-    const bool is_new_folder = run::claim_export(folder);
-    try {
-      std::vector<run::Caustic> caustics;
-      std::vector<std::string> notes = prepared.plan->notes;
-      for (const run::Receiver& receiver : receivers)
-        if (auto caustic = caustic_on(options, prepared, receiver, context, interrupted))
-          caustics.push_back(std::move(*caustic));
-        else
-          notes.push_back(fmt::format("'{}' has no picture: no light comes to it through glass or from a mirror",
-                                      name_of(prepared.loaded->scene, receiver)));
-      const double white =
-          asked.white != 0 ? asked.white : run::fitted_white(run::prepare(asked, nullptr, {interrupted, {}}), context, {interrupted, {}});
-      std::ranges::move(run::write_export(folder, prepared.loaded->scene, asked, caustics, white), std::back_inserter(notes));
-      for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
-      for (const run::Caustic& caustic : caustics)
-        fmt::print("{}: {:.4g} luminous watts on '{}'\n", (folder / caustic.file).string(), caustic.watts,
-                   name_of(prepared.loaded->scene, caustic.receiver));
-      fmt::print("{}\n", (folder / "scene.glb").string());
-    } catch (...) {
-      if (is_new_folder) run::release_folder(folder);
-      throw;
-    }
+    const run::ClaimedFolder claimed(folder, true, run::content_of_export());
+    const double white =
+        asked.white != 0 ? asked.white : run::fitted_white(run::prepare(asked, nullptr, {interrupted, {}}), context, {interrupted, {}});
+    std::vector<run::Caustic> caustics;
+    std::vector<std::string> notes = prepared.plan->notes;
+    for (const run::Receiver& receiver : receivers)
+      if (auto caustic = caustic_on(options, prepared, receiver, context, interrupted))
+        caustics.push_back(std::move(*caustic));
+      else
+        notes.push_back(fmt::format("'{}' has no picture: no light comes to it through glass or from a mirror",
+                                    name_of(prepared.loaded->scene, receiver)));
+    std::ranges::move(run::write_export(folder, prepared.loaded->scene, asked, caustics, white), std::back_inserter(notes));
+    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+    for (const run::Caustic& caustic : caustics)
+      fmt::print("{}: {:.4g} luminous watts on '{}'\n", (folder / caustic.file).string(), caustic.watts,
+                 name_of(prepared.loaded->scene, caustic.receiver));
+    fmt::print("{}\n", (folder / "scene.glb").string());
   });
 }
 

@@ -75,33 +75,36 @@ void put_in_order(std::vector<double>& times)
   times.assign(sorted.begin(), sorted.end());
 }
 
-/// Puts a number in place of "auto". The runs of a sweep and the frames of an animation have that of the first, so that their pictures can
-/// be compared; a run that goes on has its own.
-void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared)
+/// Puts a number in place of "auto": rank 0's. The runs of a sweep and the frames of an animation have that of the first, so that their
+/// pictures can be compared; a run that goes on has its own.
+void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared, const Team& team)
 {
   if (target.preset.white != 0) return;
-  if (const auto own = options.resume ? run::white_of_run(target.folder) : std::nullopt) shared.white = own;
-  if (!shared.white) {
-    const preset::Preset first = target.preset.animation ? preset::at_frame(target.preset, 0) : target.preset;
-    preset::at_origins(first, [&] {
-      shared.prepared = run::prepare(first, shared.prepared ? &*shared.prepared : nullptr, {interrupted, {}});
-      shared.white = run::fitted_white(*shared.prepared, device_of(options, shared), {interrupted, {}});
-    });
-    if (!shared.ranks || shared.ranks->rank() == 0)
+  if (team.leads()) {
+    if (const auto own = options.resume ? run::white_of_run(target.folder) : std::nullopt) shared.white = own;
+    if (!shared.white) {
+      const preset::Preset first = target.preset.animation ? preset::at_frame(target.preset, 0) : target.preset;
+      preset::at_origins(first, [&] {
+        shared.prepared = run::prepare(first, shared.prepared ? &*shared.prepared : nullptr, {interrupted, {}});
+        shared.white = run::fitted_white(*shared.prepared, device_of(options, shared), {interrupted, {}});
+      });
       fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
+    }
   }
-  target.preset.white = *shared.white;
+  target.preset.white = team.told(shared.white.value_or(0));
 }
 
 void run_one(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared)
 {
-  fit_white(options, target, interrupted, shared);
+  const Team team(shared.ranks);
+  fit_white(options, target, interrupted, shared, team);
   if (target.preset.animation) return render_animation(options, target, interrupted, shared);
   if (!options.frames.empty()) throw bad_input("--frames", "the preset has no animation", "expected one with the section 'animation'");
-  if (const auto done = options.resume ? run::finished_run(target.folder, target.preset) : std::nullopt) {
-    if (!done->changed.empty())
-      throw bad_input(target.folder, "this run is finished, but " + done->changed, {}, "run without --resume to start over");
-    if (shared.ranks && shared.ranks->rank() != 0) return;
+  const auto done = options.resume && team.leads() ? run::finished_run(target.folder, target.preset) : std::nullopt;
+  if (done && !done->changed.empty())
+    throw bad_input(target.folder, "this run is finished, but " + done->changed, {}, "run without --resume to start over");
+  if (team.told(done.has_value())) {
+    if (!done) return; // what rank 0 says
     fmt::print(stderr, "{}: this run is finished\n", target.label);
     return report_result(options, target, done->progress, true);
   }
@@ -133,19 +136,19 @@ void require_same_runs(const RunOptions& options, const std::vector<Target>& tar
 
 /// Of a sweep each rank does the next run, alone, whenever it is free.
 void deal_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared,
-               team::Ranks& ranks)
+               const std::shared_ptr<team::Ranks>& ranks)
 {
-  for (Target& target : targets) fit_white(options, target, interrupted, shared);
-  require_same(options, targets.front().preset, interrupted, shared, ranks);
-  const bool leads = ranks.rank() == 0;
+  const Team team(ranks);
+  for (Target& target : targets) fit_white(options, target, interrupted, shared, team);
+  require_same(options, targets.front().preset, interrupted, shared, *ranks);
   const fs::path folder = targets.front().folder.parent_path();
-  if (leads) {
+  if (team.leads()) {
     fs::create_directories(folder);
     write_order(targets);
   }
-  require_shared(ranks, folder / report::sweep_file);
-  ranks.deal(static_cast<std::int64_t>(targets.size()),
-             [&](std::int64_t number) { run_one(options, targets[static_cast<std::size_t>(number)], interrupted, shared); });
+  require_shared(*ranks, folder / report::sweep_file);
+  ranks->deal(static_cast<std::int64_t>(targets.size()),
+              [&](std::int64_t number) { run_one(options, targets[static_cast<std::size_t>(number)], interrupted, shared); });
 }
 
 void run_preset(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<team::Ranks>& ranks)
@@ -155,7 +158,7 @@ void run_preset(const RunOptions& options, const std::stop_token& interrupted, c
   if (!ranks) return run_all(options, targets, interrupted, shared);
   shared.device_of_several = ranks->number_on_host();
   require_same_runs(options, targets, *ranks);
-  if (targets.size() > 1) return deal_runs(options, targets, interrupted, shared, *ranks);
+  if (targets.size() > 1) return deal_runs(options, targets, interrupted, shared, ranks);
   shared.ranks = ranks;
   run_one(options, targets.front(), interrupted, shared);
 }
@@ -165,6 +168,7 @@ void run_on_ranks(const RunOptions& options, const std::stop_token& interrupted,
 {
   try {
     run_preset(options, interrupted, ranks);
+    ranks->wait_for_first(); // which may still write files
   } catch (const Error& error) {
     const bool leads = ranks->rank() == 0;
     if (!leads) std::this_thread::sleep_for(std::chrono::seconds(1));

@@ -12,6 +12,7 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace nephroid::cli {
@@ -45,6 +46,7 @@ public:
   {
     for (int frame = range_.first; frame <= range_.second; ++frame)
       preset::at_frame(target_.preset, frame); // what cannot be is said at once
+    if (ranks_) require_same(options_, target_.preset, interrupted_, shared_, *ranks_);
     begin();
     if (ranks_)
       deal_frames();
@@ -59,7 +61,6 @@ private:
   /// Each rank renders the next one, alone, whenever it is free.
   void deal_frames()
   {
-    require_same(options_, target_.preset, interrupted_, shared_, *ranks_);
     require_shared(*ranks_, target_.folder / "preset.json");
     ranks_->deal(range_.second - range_.first + 1, [&](std::int64_t number) { render_one(range_.first + static_cast<int>(number)); });
     std::int64_t rendered = rendered_;
@@ -75,7 +76,7 @@ private:
       run::require_memory(*shared_.prepared, device_of(options_, shared_)); // what cannot be leaves no folder
     });
     if (!leads()) return;
-    run::claim_folder(target_.folder);
+    claimed_.emplace(target_.folder, options_.frames.empty()); // others may render the other frames
     if (options_.resume || !options_.frames.empty()) {
       run::remove_frames(target_.folder, animation_.frames);
       run::write_settings(target_.folder, *shared_.prepared);
@@ -135,6 +136,7 @@ private:
   std::shared_ptr<team::Ranks> ranks_; ///< null: this process alone renders all frames
   std::pair<int, int> range_;
   int rendered_ = 0;
+  std::optional<run::ClaimedFolder> claimed_;
 };
 
 } // namespace

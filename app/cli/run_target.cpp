@@ -74,29 +74,24 @@ public:
     std::unique_ptr<job::Job> job = taken_on(shared);
     std::optional<compute::Together> together;
     if (!job) run::require_memory(prepared, context); // a run that cannot be leaves no folder
-    const bool is_new_folder = run::claim_folder(target_.folder);
-    try {
-      reference_ = reference(prepared, context);
-      if (!job) {
-        together.emplace(context, team);
-        job = run::make_job(prepared, context);
-        if (!team.is_alone()) job = job::led(std::move(job), team);
-        job = measure::measured(std::move(job), prepared.preset, reference_, began_, options_.pictures_at);
-        shared.of_job = target_.preset;
-        shared.inputs_of_job = prepared.plan->inputs;
-      }
-      activity_.clear();
-      telling.reset();
-      stop_if_interrupted_early();
-      begin_or_resume(prepared, context, *job);
-      stop_if_interrupted_early();
-      work(prepared, context, *job);
-      save(prepared, context, *job);
-      if (is_frame()) shared.job = std::move(job);
-    } catch (...) {
-      if (is_new_folder) run::release_folder(target_.folder);
-      throw;
+    const run::ClaimedFolder claimed(target_.folder);
+    reference_ = reference(prepared, context);
+    if (!job) {
+      together.emplace(context, team);
+      job = run::make_job(prepared, context);
+      if (!team.is_alone()) job = job::led(std::move(job), team);
+      job = measure::measured(std::move(job), prepared.preset, reference_, began_, options_.pictures_at);
+      shared.of_job = target_.preset;
+      shared.inputs_of_job = prepared.plan->inputs;
     }
+    activity_.clear();
+    telling.reset();
+    stop_if_interrupted_early();
+    begin_or_resume(prepared, context, *job);
+    stop_if_interrupted_early();
+    work(prepared, context, *job);
+    save(prepared, context, *job);
+    if (is_frame()) shared.job = std::move(job);
   }
 
 private:

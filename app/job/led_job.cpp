@@ -2,6 +2,7 @@
 #include "job/led_job.h"
 
 #include <exception>
+#include <type_traits>
 
 namespace nephroid::job {
 namespace {
@@ -42,11 +43,17 @@ public:
   /// What failed ends all ranks anyway.
   ~LedJob() override
   {
-    if (std::uncaught_exceptions() == 0) team_.told(Call::end);
+    if (std::uncaught_exceptions() > 0 || thrown_) return;
+    try {
+      team_.told(Call::end);
+    } catch (const Error&) {
+      // A rank died after its last work.
+    }
   }
 
   void step() override
   {
+    if (thrown_) std::rethrow_exception(thrown_); // half way through a call: the ranks are no longer in step
     team_.told(Call::step);
     job_->step();
   }
@@ -55,7 +62,7 @@ public:
   Snapshot snapshot() override
   {
     team_.told(Call::snapshot);
-    Snapshot snapshot = job_->snapshot();
+    Snapshot snapshot = kept([&] { return job_->snapshot(); });
     const Team::Talk talk = team_.talk();
     snapshot.scalars.insert(snapshot.scalars.end(), {{"ranks", "count", static_cast<double>(team_.size())},
                                                      {"ranks", "calls", static_cast<double>(talk.calls)},
@@ -68,7 +75,7 @@ public:
   {
     team_.told(Call::save);
     Patient patient(to);
-    job_->save(patient);
+    kept([&] { job_->save(patient); });
     patient.rethrow();
   }
   void load(ByteSource& from) override
@@ -83,8 +90,20 @@ public:
   }
 
 private:
+  template <class Work>
+  std::invoke_result_t<Work> kept(Work work)
+  {
+    try {
+      return work();
+    } catch (...) {
+      thrown_ = std::current_exception();
+      throw;
+    }
+  }
+
   std::unique_ptr<Job> job_;
   Team team_;
+  std::exception_ptr thrown_; ///< by a call that whoever made it may survive
 };
 
 } // namespace

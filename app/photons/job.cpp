@@ -75,7 +75,7 @@ public:
     for (const RunPart* part : plan.parts)
       if (part->make) stages_.push_back({part->make(world_, scene, settings), part->layer});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
-    if (context.is_cold()) {
+    if (context.team().told(context.is_cold())) { // rank 0 may have rendered a reference before
       for (const TimedStage& s : stages_) s.stage->warm_up();
       world_.energy.fill_zero();
       world_.context.finish(); // a run that never comes to work must not end while kernels run
@@ -240,13 +240,13 @@ private:
       if (s.caustics()) photons += s.stage->photons_per_pass();
     }
     if (photons == 0) return;
-    std::vector<float>& splatted = tracing::layer_of(caustics, "caustic").rgb;
-    if (smoothing_) smoothing_->pixels().spread(splatted, caustics.error_draw);
-    picture.layers.push_back(std::move(caustics.layers.front()));
+    Noisy splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
+    if (smoothing_) smoothing_->spread(splatted, {});
+    tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
     for (const job::Layer& layer : picture.layers)
       std::transform(layer.rgb.begin(), layer.rgb.end(), picture.rgb.begin(), picture.rgb.begin(), std::plus());
 
-    Noise of_caustics{caustics.error_draw, picture.rgb, at_.pass};
+    Noise of_caustics{splatted.draw, picture.rgb, at_.pass};
     double noise = 0; // of photons: what glass shows are also paths
     for (std::size_t i = 0; i < picture.rgb.size(); ++i)
       if (!world_.pixels.may_show_glass[i / 3]) noise += of_caustics.of(i);

@@ -124,7 +124,7 @@ void SampledPixels::share_work(const Noise& noise)
       const double variance = std::min(Noise::noise_beside(light_squared / 3, sampled.variance), 3 * had);
       // With n samples, of the work c each, the noise is v / n, and one more lowers it by v / n^2. For the same work that is to be what
       // photons do, at the end of the passes to come, which are as many as there were.
-      const double work = glass ? paths_through_glass * work_of_a_path : work_of_a_path;
+      const double work = glass ? paths_through_glass * work_through_glass : work_of_a_path;
       const double wanted = std::sqrt(variance / (work * noise.photon_gain));
       rates_[i] = whole_rate(std::clamp((2 * wanted - had) / static_cast<double>(noise.passes), least_rate, most_rate));
     }

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <fcntl.h>
 
 namespace nephroid::run {
 namespace fs = std::filesystem;
@@ -26,40 +28,40 @@ bool is_ours(const fs::path& folder, const std::vector<std::string>& files)
   return true;
 }
 
-bool claim(const fs::path& folder, const std::string& whose, const std::vector<std::string>& files)
-{
-  if (is_there(folder) && !fs::is_directory(folder))
-    throw bad_input(folder.string(), "is a file", "expected a folder for the files of " + whose, "choose another one with -o");
-  const bool is_new = fs::create_directories(folder);
-  if (!is_ours(folder, files))
-    throw bad_input(folder.string(), "holds files that are not of " + whose, "expected an empty or a new folder",
-                    "choose another one with -o");
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (is_temporary_name(entry.path())) fs::remove(entry.path());
-  const fs::path probe = folder / "probe";
-  write_file_whole(probe, "writable?\n");
-  fs::remove(probe);
-  return is_new;
-}
-
 } // namespace
 
-bool claim_folder(const fs::path& folder) { return claim_folder(folder, "a run", {"plan.json", "preset.json"}); }
-
-bool claim_folder(const fs::path& folder, const std::string& whose, const std::vector<std::string>& files)
+ClaimedFolder::ClaimedFolder(const fs::path& folder, bool alone, const FolderContent& content) : folder_(folder)
 {
   try {
-    return claim(folder, whose, files);
+    claim(alone, content);
   } catch (const fs::filesystem_error& error) {
     throw failed(folder.string(), "cannot be used: " + error.code().message(), "expected a folder that can be written to",
                  "choose another one with -o");
   }
 }
 
-void release_folder(const fs::path& folder)
+ClaimedFolder::~ClaimedFolder()
 {
   std::error_code ignored;
-  fs::remove(folder, ignored); // refused where anything is in it
+  if (is_new_) fs::remove(folder_, ignored); // refused where anything is in it
+}
+
+void ClaimedFolder::claim(bool alone, const FolderContent& content)
+{
+  if (is_there(folder_) && !fs::is_directory(folder_))
+    throw bad_input(folder_.string(), "is a file", "expected a folder for the files of " + content.whose, "choose another one with -o");
+  is_new_ = fs::create_directories(folder_);
+  if (!is_ours(folder_, content.files))
+    throw bad_input(folder_.string(), "holds files that are not of " + content.whose, "expected an empty or a new folder",
+                    "choose another one with -o");
+  lock_ = lock_open_file(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), alone);
+  if (!lock_ && errno == EWOULDBLOCK)
+    throw bad_input(folder_.string(), "another process writes into it", {}, "wait for its end, or choose another folder with -o");
+  for (const auto& entry : fs::directory_iterator(folder_))
+    if (is_temporary_name(entry.path())) fs::remove(entry.path());
+  const fs::path probe = folder_ / "probe";
+  write_file_whole(probe, "writable?\n");
+  fs::remove(probe);
 }
 
 std::vector<std::string> engine_files(const fs::path& folder)

@@ -2,6 +2,7 @@
 // From a preset to a running engine and to the files of a finished run: the one place that knows all engines.
 // The command line and the window both come through here.
 #pragma once
+#include "base/file_lock.h"
 #include "base/watch.h"
 #include "compute/compute.h"
 #include "image/image.h"
@@ -82,13 +83,32 @@ double fitted_white(const Prepared& prepared, const compute::Context& context, c
 /// The white of the run in the folder, by its preset.json; nothing where that is missing or damaged, or says "auto".
 std::optional<double> white_of_run(const std::filesystem::path& folder);
 
-/// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. Throws bad_input where it
-/// is a file or holds anything but a run, failed where it cannot be written to. Returns whether it made the folder.
-bool claim_folder(const std::filesystem::path& folder);
-/// The same of something else than a run, of which each has all of these `files`. whose: "a run".
-bool claim_folder(const std::filesystem::path& folder, const std::string& whose, const std::vector<std::string>& files);
-/// Removes a folder that claim_folder made where nothing was written into it.
-void release_folder(const std::filesystem::path& folder);
+/// What a folder may hold that is to be written into.
+struct FolderContent {
+  std::string whose = "a run";                                ///< for messages
+  std::vector<std::string> files{"plan.json", "preset.json"}; ///< that each of those has
+};
+
+/// A folder that this process writes into, as long as this lives.
+class ClaimedFolder {
+public:
+  /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. alone: else other processes may
+  /// claim it so, too. Throws bad_input where it is a file, holds anything else, or is another process'; failed where it cannot be written
+  /// to. Where a file system locks no folders, as NFS, other processes are not seen.
+  explicit ClaimedFolder(const std::filesystem::path& folder, bool alone = true, const FolderContent& content = {});
+  /// Removes the folder if it is empty and was made here.
+  ~ClaimedFolder();
+  ClaimedFolder(const ClaimedFolder&) = delete;
+  ClaimedFolder& operator=(const ClaimedFolder&) = delete;
+
+private:
+  void claim(bool alone, const FolderContent& content);
+
+  std::filesystem::path folder_;
+  bool is_new_ = false;
+  FileLock lock_;
+};
+
 /// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all writing below
 /// throws failed with the system's reason.
 void begin_run(const std::filesystem::path& folder, const Prepared& prepared);

@@ -45,7 +45,11 @@ std::shared_ptr<Ranks> open_ranks()
   // MPI loads plug-ins of its own, which look for its symbols.
   void* const library = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
   if (!library) throw failed(file.string(), fmt::format("cannot be loaded: {}", ::dlerror()), {}, "install Open MPI");
-  return std::shared_ptr<Ranks>(reinterpret_cast<OpenRanks>(::dlsym(library, open_symbol))());
+  std::shared_ptr<Ranks> ranks(reinterpret_cast<OpenRanks>(::dlsym(library, open_symbol))());
+  if (ranks->size() != count)
+    throw failed("mpirun", fmt::format("it has started {} processes, and Open MPI knows {} of them", count, ranks->size()), {},
+                 "start them by Open MPI's mpirun, or by srun --mpi=pmix");
+  return ranks;
 }
 
 void require_all(Ranks& ranks, const std::optional<Error>& error)

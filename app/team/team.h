@@ -24,7 +24,8 @@ public:
     std::byte nothing{};
     tell({&nothing, 1});
   }
-  /// Calls work(0), ..., work(count - 1), each on one rank: whoever is free takes the next. Returns once all ranks are done.
+  /// Calls work(0), ..., work(count - 1), each on one rank: whoever is free takes the next. Returns on rank 0 once all ranks are done, on
+  /// another one once there is nothing to begin. Where work is interrupted, this throws after the time that the others need to save theirs.
   virtual void deal(std::int64_t count, const std::function<void(std::int64_t)>& work) = 0;
   /// Ends all ranks at once, with this exit code.
   [[noreturn]] virtual void abort(int exit_code) = 0;
@@ -33,7 +34,7 @@ public:
 /// The module's only function.
 inline constexpr const char* module_name = "libnephroid_mpi.so";
 inline constexpr const char* open_symbol = "nephroid_open_ranks";
-/// Joins the other ranks. At its end it waits until each has come to its end.
+/// Joins the other ranks. Throws failed where MPI does not let threads take turns.
 using OpenRanks = Ranks* (*)();
 
 /// The ranks that mpirun or srun has started this process with; null where it is alone. Throws failed where it is not, and this build has

@@ -95,22 +95,26 @@ double choose_power_unit(const scene::Scene& scene)
   return power_of_two_below(strongest);
 }
 
+/// What peaks have to hold of the environment's flux, so that surfaces draw by them, too.
+constexpr double least_peaks = 1e-3;
+
 double chance(const std::vector<float>& cdf, std::size_t i) { return double(cdf[i]) - (i > 0 ? double(cdf[i - 1]) : 0.0); }
 
 /// The chance of each row in `rows`, of its texels after them.
 struct Flux {
-  std::vector<double> rows;               ///< [row] grey times steradians
+  std::vector<double> rows;               ///< [row] grey above the floor, times steradians
   std::vector<std::vector<float>> texels; ///< [row] exact_cdf
 };
 
-Flux flux_by_rows(const scene::Environment& environment)
+Flux flux_by_rows(const scene::Environment& environment, double floor)
 {
   const auto width = static_cast<std::size_t>(environment.width), height = static_cast<std::size_t>(environment.height);
   Flux flux;
   for (std::size_t row = 0; row < height; ++row) {
     std::vector<double> values(width);
     double sum = 0;
-    for (std::size_t column = 0; column < width; ++column) sum += values[column] = scene::grey(environment, row * width + column);
+    for (std::size_t column = 0; column < width; ++column)
+      sum += values[column] = std::max(scene::grey(environment, row * width + column) - floor, 0.0);
     flux.rows.push_back(sum * scene::texel_steradians(environment, static_cast<int>(row)));
     flux.texels.push_back(exact_cdf(values));
   }
@@ -186,7 +190,7 @@ shared::DeviceBackground picture_size(const scene::Environment& environment)
 SkyTables make_sky_tables(const scene::Environment& environment)
 {
   const scene::EnvironmentFlux whole = scene::flux_of(environment);
-  const Flux flux = flux_by_rows(environment);
+  const Flux flux = flux_by_rows(environment, 0), peaks = flux_by_rows(environment, whole.grey / (4 * std::numbers::pi));
   const auto width = static_cast<std::size_t>(environment.width);
   SkyTables tables;
   tables.size = picture_size(environment);
@@ -203,7 +207,12 @@ SkyTables make_sky_tables(const scene::Environment& environment)
       }
     }
   }
-  for (const std::vector<float>& row : flux.texels) tables.cdf.insert(tables.cdf.end(), row.begin(), row.end());
+  const auto append = [&](const std::vector<float>& cdf) { tables.cdf.insert(tables.cdf.end(), cdf.begin(), cdf.end()); };
+  std::ranges::for_each(flux.texels, append);
+  tables.size.has_peaks = std::accumulate(peaks.rows.begin(), peaks.rows.end(), 0.0) > least_peaks * whole.grey;
+  if (!tables.size.has_peaks) return tables;
+  append(exact_cdf(peaks.rows));
+  std::ranges::for_each(peaks.texels, append);
   return tables;
 }
 

@@ -34,7 +34,7 @@ struct LeaveOut {
 /// The environment as a light, as kernels/tracing/sky.h reads it.
 struct SkyTables {
   shared::DeviceBackground size{};
-  std::vector<float> cdf;       ///< exact_cdf of the rows' flux, then of the texels of each row
+  std::vector<float> cdf;       ///< exact_cdf of the rows' flux, then of the texels of each row; then of the peaks, if it has any
   std::vector<float> colour;    ///< [row][column][3]: what a photon of the texel carries of each primary, about rgb over grey
   shared::float4 mean_colour{}; ///< of all photons
 };

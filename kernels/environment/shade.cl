@@ -98,7 +98,7 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
       sampled += rgb.x * row[0].xyz + rgb.y * row[world->reflector_count].xyz + rgb.z * row[2 * world->reflector_count].xyz;
 #endif
     } else {
-      const float3 lamp = row->xyz * (power_unit * irradiance_of(world, l, &path, &surface, primitive, seed, pass, sequence));
+      const float3 lamp = row->xyz * (power_unit * irradiance_of(world, l, &path, &surface, primitive, seed, pass, 1u, sequence));
       sampled += lamp;
       sum += lamp;
     }

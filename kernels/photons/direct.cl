@@ -9,9 +9,10 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
                       __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
 {
   SET_ASIDE float3 xyz = (float3)(0.0f);
+  const uint paths = band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS;
   for (int l = 0; l < world->scene.light_count; ++l) {
     if (is_of_environment(world, l)) {
-      const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel);
+      const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, paths, pixel);
       const Source sky = {l, rgb / PI_F};
       __global const float4* all = reflected_xyz_all + l * world->reflector_count + reflector;
       xyz += band->cluster < 0 ? sky.rgb.x * all[0].xyz + sky.rgb.y * all[world->reflector_count].xyz +
@@ -19,7 +20,7 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
                                : carried_light(world, &path->losses, sky, band, reflector).xyz;
       continue;
     }
-    const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, pixel);
+    const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, paths, pixel);
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
     const float3 reflected = band->cluster < 0 ? reflected_xyz_all[l * world->reflector_count + reflector].xyz

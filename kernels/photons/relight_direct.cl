@@ -73,7 +73,7 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
     if (!straight) weight *= cluster_left(&world.tables, &path.losses, band.cluster);
     const int reflector = material_of(&world, surface.object).reflector;
     for (int l = 0; l < scene.light_count; ++l) {
-      const float radiance = weight * irradiance_of(&world, l, &path, &surface, hit.primitive, seed, sample, (uint)pixel) / PI_F;
+      const float radiance = weight * irradiance_of(&world, l, &path, &surface, hit.primitive, seed, sample, straight ? 1u : PATHS_THROUGH_GLASS, (uint)pixel) / PI_F;
       if (radiance == 0.0f) continue;
       bool taken;
       if (straight)

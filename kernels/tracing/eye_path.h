@@ -43,23 +43,9 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
   return arrival;
 }
 
-// Irradiance that a light sends unbent to the side of a surface that a path arrives at; 0 where something is in its way.
-static inline float irradiance_of(const World* world, int light_index, const Path* path, const Surface* surface, uint triangle, uint2 seed,
-                                  uint sample, uint pixel)
-{
-  const DeviceLight light = world->lights[light_index];
-  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
-  const float4 place =
-      is_light(&light, LIGHT_AREA) ? random4(seed, sample, pixel, (uint)light.number, STREAM_CAMERA_LIGHT) : (float4)(0.0f);
-  const Arrival arrival = arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
-  if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
-  const float3 from = start_on_side(surface, side);
-  return is_blocked(world, from, arrival.direction, arrival.distance, triangle) ? 0.0f : arrival.irradiance;
-}
-
-// The four numbers of sample `sample` of the environment at a pixel, which takes `paths` of them a frame. Those of one half of the film
+// The four numbers of sample `sample` of a light with places at a pixel, which takes `paths` of them a frame. Those of one half of the film
 // follow a sequence; the halves are independent. Sets 0 and 1 of a sequence are of photons.
-static inline float4 sky_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel)
+static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel)
 {
 #if NEPHROID_LOW_DISCREPANCY
   const uint frame = sample / paths, index = frame / NEPHROID_FILM_HALVES * paths + sample % paths;
@@ -69,7 +55,20 @@ static inline float4 sky_numbers(const DeviceLight* light, uint2 seed, uint samp
 #endif
 }
 
-// Four numbers for sample `sample` of a pixel, which takes `paths` of them a frame: of a sequence, as sky_numbers; or plain ones, where paths
+// Irradiance that a light sends unbent to the side of a surface that a path arrives at; 0 where something is in its way.
+static inline float irradiance_of(const World* world, int light_index, const Path* path, const Surface* surface, uint triangle, uint2 seed,
+                                  uint sample, uint paths, uint pixel)
+{
+  const DeviceLight light = world->lights[light_index];
+  const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
+  const float4 place = is_light(&light, LIGHT_AREA) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
+  const Arrival arrival = arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
+  if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
+  const float3 from = start_on_side(surface, side);
+  return is_blocked(world, from, arrival.direction, arrival.distance, triangle) ? 0.0f : arrival.irradiance;
+}
+
+// Four numbers for sample `sample` of a pixel, which takes `paths` of them a frame: of a sequence, as light_numbers; or plain ones, where paths
 // is 0. block: which four.
 static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel, uint block, uint stream)
 {
@@ -83,22 +82,22 @@ static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel
 }
 
 // What the environment sends unbent to the side of a surface that a path arrives at, as irradiance times Source::rgb. Two shadow rays, one
-// drawn by the map's flux and one by the cosine, weighted by the balance heuristic (Veach 1997, 9.2.2): each radiance * cosine over the sum
-// of both densities. The first finds a sun, the second is exact where the sky is even.
+// drawn by the map's peaks and one by the cosine, weighted by the balance heuristic (Veach 1997, 9.2.2): each radiance * cosine over the sum
+// of both densities. The first finds a sun, the second is exact where the sky is even; without peaks it is the only one.
 static inline float3 sky_irradiance(const World* world, int light_index, const Path* path, const Surface* surface, uint triangle,
                                     uint2 seed, uint sample, uint paths, uint pixel)
 {
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   const float3 normal = side * surface->shading, from = start_on_side(surface, side);
-  SET_ASIDE float4 random = sky_numbers(&light, seed, sample, paths, pixel);
+  SET_ASIDE float4 random = light_numbers(&light, seed, sample, paths, pixel);
   SET_ASIDE float3 sum = (float3)(0.0f);
-  for (int i = 0; i < 2; ++i) {
-    const SkyPlace place = i == 0 ? sample_sky(&world->sky, random.xy) : sky_in(&world->sky, cosine_direction(normal, random.z, random.w));
+  for (int i = world->sky.size.has_peaks ? 0 : 1; i < 2; ++i) {
+    const SkyPlace place = i == 0 ? sample_sky(&world->sky, cdf_of_peaks(&world->sky), random.xy) : sky_in(&world->sky, cosine_direction(normal, random.z, random.w));
     const float cosine = dot(place.direction, normal);
     if (!(cosine > 0.0f) || !(place.density > 0.0f) || !(side * dot(place.direction, surface->geometric) > 0.0f)) continue;
     SET_ASIDE float3 rgb = place.rgb;
-    SET_ASIDE float weight = place.density * cosine / (place.density + cosine / PI_F);
+    SET_ASIDE float weight = place.density * cosine / (place.peak_density + cosine / PI_F);
     if (!is_blocked(world, from, place.direction, INFINITY, triangle)) sum += rgb * weight;
   }
   return light.radiometric * sum;

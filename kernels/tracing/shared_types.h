@@ -124,7 +124,7 @@ typedef struct {
 typedef struct {
   int width, height; // texels
   float turns;       // that the surroundings are turned about +y, counterclockwise as seen from above
-  int padding;
+  int has_peaks;     // of a light: whether it is worth drawing by its peaks (sky.h)
 } DeviceBackground;
 
 #define PRIMITIVE_FLAT 0

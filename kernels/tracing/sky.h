@@ -6,6 +6,9 @@
 // A texel has one colour, and a colour stands for r, g and b times the fixed spectra of the three sRGB primaries, as where the environment
 // is seen. These are three rows of the tables of lights, from the environment's own on: what a photon carries is a sum of three, and may
 // be negative at a wavelength where a primary is. Flux counts colours by (r + g + b) / 3.
+//
+// Surfaces draw by the peaks alone, what is brighter than the mean over all directions: their second draw, by the cosine, finds all else
+// (Karlik et al. 2019, "MIS compensation").
 #ifndef NEPHROID_SKY_H
 #define NEPHROID_SKY_H
 
@@ -13,7 +16,7 @@
 #include "kernels/tracing/light.h"
 
 typedef struct {
-  __global const float* cdf;    // exact_cdf of the rows, then of the texels of each row
+  __global const float* cdf;    // exact_cdf of the rows, then of the texels of each row: by flux; then the same by peaks
   __global const float* colour; // [row][column][3]: linear sRGB of a texel over its grey: Source::rgb
   DeviceBackground size;
 } Sky;
@@ -24,13 +27,16 @@ typedef struct {
   float3 direction; // unit, to the sky
   float3 rgb;
   float density;
+  float peak_density; // the chance among the peaks, a steradian
 } SkyPlace;
 
-static inline float sky_density(const Sky* sky, int row, int column)
+static inline __global const float* cdf_of_peaks(const Sky* sky) { return sky->cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1); }
+
+static inline float sky_density(const Sky* sky, __global const float* cdf, int row, int column)
 {
   const int width = made_late(sky->size.width), height = made_late(sky->size.height);
-  __global const float* columns = sky->cdf + height + (size_t)row * (size_t)width;
-  const float of_row = sky->cdf[row] - chance_before(sky->cdf, row), of_column = columns[column] - chance_before(columns, column);
+  __global const float* columns = cdf + height + (size_t)row * (size_t)width;
+  const float of_row = cdf[row] - chance_before(cdf, row), of_column = columns[column] - chance_before(columns, column);
   // cos a - cos b as a product, exact for thin rows.
   const float steradians = 4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
   return of_row * of_column / steradians;
@@ -39,7 +45,7 @@ static inline float sky_density(const Sky* sky, int row, int column)
 static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int column)
 {
   const SkyPlace place = {direction, vload3((size_t)row * (size_t)sky->size.width + (size_t)column, sky->colour),
-                          sky_density(sky, row, column)};
+                          sky_density(sky, sky->cdf, row, column), sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
   return place;
 }
 
@@ -50,18 +56,18 @@ static inline float place_in_bin(__global const float* cdf, int bin, float numbe
   return (number + 0x1p-25f - before) / (cdf[bin] - before);
 }
 
-// place: two numbers in [0, 1).
-static inline SkyPlace sample_sky(const Sky* sky, float2 place)
+// cdf: sky->cdf, or that of the peaks, if it has any. place: two numbers in [0, 1).
+static inline SkyPlace sample_sky(const Sky* sky, __global const float* cdf, float2 place)
 {
   const int width = made_late(sky->size.width), height = made_late(sky->size.height);
-  const int row = choose(sky->cdf, height, place.x);
-  __global const float* columns = sky->cdf + height + (size_t)row * (size_t)width;
+  const int row = choose(cdf, height, place.x);
+  __global const float* columns = cdf + height + (size_t)row * (size_t)width;
   const int column = choose(columns, width, place.y);
   // 1 - |cos| of the zenith angle, uniform over the row, from the pole that is nearer: it stays exact there.
   const bool upper = 2 * row < height;
   const int from_pole = upper ? row : height - 1 - row;
   const float edge = sin(0.5f * PI_F * (float)from_pole / (float)height);
-  const float within = place_in_bin(sky->cdf, row, place.x);
+  const float within = place_in_bin(cdf, row, place.x);
   const float deep = 2.0f * sin(PI_F * ((float)from_pole + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
   const float below = 2.0f * edge * edge + (upper ? within : 1.0f - within) * deep;
   const float sine = sqrt(fmax(below * (2.0f - below), 0.0f));

@@ -160,7 +160,7 @@ static inline Source source_of(const World* world, int index, float2 place, Devi
 {
   Source source = {index, (float3)(1.0f)};
   if (is_light(light, LIGHT_ENVIRONMENT)) {
-    const SkyPlace from = sample_sky(&world->sky, place);
+    const SkyPlace from = sample_sky(&world->sky, world->sky.cdf, place);
     light->direction.xyz = -from.direction;
     source.rgb = from.rgb;
   }

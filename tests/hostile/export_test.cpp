@@ -71,6 +71,24 @@ TEST_F(Export, IrradianceUnderAPaneIsItsClosedForm)
   EXPECT_NEAR(about["caustics"][1]["luminous_w"].get<double>(), through * 0.5, 0.02 * through);
 }
 
+TEST_F(Export, UnitsAndExposureChangeNoLight)
+{
+  write("pane.json", pane);
+  ASSERT_EQ(run({"export", "pane.json", "-o", "x", "--size", "64", "--seconds", "1"}).exit_code, 0);
+  const nlohmann::json metres = of("x/caustics.json")["caustics"][0];
+  const double watts = metres["luminous_w"], there = floor_at(0.5, 0);
+  const std::string film = R"(animation={"frames": 2, "tracks": [{"path": "white", "keys": [{"frame": 0, "value": 5}]}]})";
+  const Ended ended = run({"export", "pane.json", "-o", "x", "--size", "64", "--seconds", "1", "--set", film});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(of("x/caustics.json")["white"], 5);
+  EXPECT_NEAR(floor_at(0.5, 0), there, 0.02 * there);
+  ASSERT_EQ(run({"export", "pane.json", "-o", "x", "--size", "64", "--seconds", "1", "--set", "unit=cm"}).exit_code, 0);
+  const nlohmann::json centimetres = of("x/caustics.json")["caustics"][0];
+  EXPECT_NEAR(centimetres["luminous_w"].get<double>(), 1e-4 * watts, 0.02e-4 * watts) << "of the same irradiance";
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(centimetres["across_m"][axis].get<double>(), 0.01 * metres["across_m"][axis].get<double>(), 1e-9);
+}
+
 TEST_F(Export, WhatIsImportedAgainIsTheSame)
 {
   write("pane.json", pane);

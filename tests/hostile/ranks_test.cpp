@@ -120,6 +120,14 @@ TEST_F(Ranks, FindABakeThatOneOfThemHas)
   EXPECT_EQ(json::parse(read_file(scratch.path() / "both" / "run.json"))["bake"]["from_file"], 1);
 }
 
+// Both are rank 0's work alone, and leave its kernels ready where the others' are not.
+TEST_F(Ranks, GiveOnePictureWithAReferenceAndAWhiteOfItsOwn)
+{
+  expect_one_picture({"environment/ball", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "environment.directions=26",
+                      "--set", "environment.photons=20000", "--set", "white=auto", "--set", R"(reference={"type":"recipe","passes":2})"},
+                     {2});
+}
+
 // Facets and their judge, of light in colours.
 TEST_F(Ranks, DesignOneObject) { expect_one_picture({"inverse/dispersion", "--passes", "1", "--set", "inverse.facets=[32,32]"}, {2, 3}); }
 
@@ -143,6 +151,9 @@ TEST_F(Ranks, GoOnWhereOneWasKilled)
   const Ended resumed = run(3, with({"--resume"}), "killed");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_THAT(resumed.err, HasSubstr("going on in pass"));
+  const Ended again = run(2, with({"--resume"}), "killed");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.err, HasSubstr("this run is finished"));
   ASSERT_EQ(run(1, with({}), "alone").exit_code, 0);
   expect_same("killed", "alone");
 }
@@ -160,6 +171,25 @@ TEST_F(Ranks, TakeTheNextRunOfASweep)
     EXPECT_THAT(ended.out, HasSubstr("dealt/" + name + "/image.png: 1 pass"));
   }
   EXPECT_EQ(read_file(scratch.path() / "dealt/sweep.json"), read_file(scratch.path() / "alone/sweep.json"));
+}
+
+TEST_F(Ranks, TakeTheNextFrameOfAnAnimation)
+{
+  const std::string tracks = R"([{"path": "scene.lights.0.power_w", "keys": [{"frame": 0, "value": 100}, {"frame": 3, "value": 200}]}])";
+  const std::vector<std::string> arguments{"first-light",
+                                           "--passes",
+                                           "1",
+                                           "--set",
+                                           "scene.camera.resolution=[40,30]",
+                                           "--set",
+                                           R"(animation={"frames": 4, "tracks": )" + tracks + "}"};
+  const Ended ended = run(2, arguments, "dealt");
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  ASSERT_EQ(run(1, arguments, "alone").exit_code, 0);
+  expect_same("dealt", "alone");
+  // What cannot be rendered here leaves what there is.
+  ASSERT_NE(run(2, {"spectral/ball-lens", "--passes", "1", "--set", "no.such.key=1"}, "dealt").exit_code, 0);
+  expect_same("dealt", "alone");
 }
 
 TEST_F(Ranks, HaveToBelongTogether)

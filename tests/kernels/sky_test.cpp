@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// kernels/tracing/sky.h: directions are drawn by the flux of texels, evenly by solid angle inside of one, and a direction is of the texel
-// that is seen there. The truth is the map's definition (scene/environment.h), written here anew in double precision.
+// kernels/tracing/sky.h: directions are drawn by the flux of texels or by their peaks, evenly by solid angle inside of one, and a direction
+// is of the texel that is seen there. The truth is the map's definition (scene/environment.h), written here anew in double precision.
 #include "kernels/tracing/shared_types.h"
 #include "tests/support/statistics.h"
 #include "tests/support/test_kernels.h"
@@ -15,15 +15,17 @@ using shared::float4;
 constexpr const char* source = R"(
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/sky.h"
-kernel void places(global const float* cdf, global const float* colour, DeviceBackground size, uint2 seed, global float4* out, uint count)
+kernel void places(global const float* cdf, global const float* colour, DeviceBackground size, uint2 seed, int by_peaks, global float4* out,
+                   uint count)
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const Sky sky = {cdf, colour, size};
-  const SkyPlace drawn = sample_sky(&sky, random4(seed, 0u, i, 0u, STREAM_PHOTONS).xy), seen = sky_in(&sky, drawn.direction);
+  const SkyPlace drawn = sample_sky(&sky, by_peaks ? cdf_of_peaks(&sky) : sky.cdf, random4(seed, 0u, i, 0u, STREAM_PHOTONS).xy),
+                 seen = sky_in(&sky, drawn.direction);
   out[3 * i] = (float4)(drawn.direction, drawn.density);
   out[3 * i + 1] = (float4)(drawn.rgb, seen.density);
-  out[3 * i + 2] = (float4)(seen.rgb, 0.0f);
+  out[3 * i + 2] = (float4)(seen.rgb, drawn.peak_density);
 }
 )";
 
@@ -39,29 +41,37 @@ scene::Environment uneven(int width, int height)
 
 class SkyKernel : public testing::TestWithParam<std::array<int, 2>> {};
 
-TEST_P(SkyKernel, DrawsByFlux)
+/// floor: what the grey of a texel has to exceed to be drawn, and by how much is its chance.
+void expect_drawn(const scene::Environment& map, bool by_peaks, double floor)
 {
-  const scene::Environment map = uneven(GetParam()[0], GetParam()[1]);
   const tracing::SkyTables tables = tracing::make_sky_tables(map);
   static const TestKernels kernels(source);
   const compute::Buffer<float> cdf(kernels.context(), "cdf", std::span<const float>(tables.cdf)),
       colour(kernels.context(), "colour", std::span<const float>(tables.colour));
   const compute::Buffer<float4> out(kernels.context(), "out", 3 * std::size_t{count});
-  kernels.kernel("places").run(
-      count, 64, {{"cdf", cdf}, {"colour", colour}, {"size", tables.size}, {"seed", shared::uint2{8, 15}}, {"out", out}, {"count", count}});
+  kernels.kernel("places").run(count, 64,
+                               {{"cdf", cdf},
+                                {"colour", colour},
+                                {"size", tables.size},
+                                {"seed", shared::uint2{8, 15}},
+                                {"by_peaks", by_peaks ? 1 : 0},
+                                {"out", out},
+                                {"count", count}});
   const std::vector<float4> got = out.read();
 
   constexpr int within = 3; // a texel's parts each way, of equal azimuth and of equal height
   const auto width = static_cast<std::size_t>(map.width), height = static_cast<std::size_t>(map.height);
   std::vector<double> counts(width * height * within * within, 0.0), chances = counts;
   const auto edge = [&](std::size_t row) { return std::cos(M_PI * static_cast<double>(row) / map.height); };
-  double all = 0;
+  double all = 0, all_drawn = 0;
   for (std::size_t row = 0; row < height; ++row)
     for (std::size_t column = 0; column < width; ++column) {
       const float* rgb = map.rgb.data() + 3 * (row * width + column);
-      const double flux = (rgb[0] + rgb[1] + rgb[2]) / 3.0 * (edge(row) - edge(row + 1)) * 2 * M_PI / map.width;
-      all += flux;
-      for (std::size_t part = 0; part < within * within; ++part) chances[(row * width + column) * within * within + part] = flux;
+      const double steradians = (edge(row) - edge(row + 1)) * 2 * M_PI / map.width, grey = (rgb[0] + rgb[1] + rgb[2]) / 3.0;
+      const double chance = std::max(grey - floor, 0.0) * steradians;
+      all += grey * steradians;
+      all_drawn += chance;
+      for (std::size_t part = 0; part < within * within; ++part) chances[(row * width + column) * within * within + part] = chance;
     }
   int elsewhere = 0;
   for (std::size_t i = 0; i < got.size(); i += 3) {
@@ -79,16 +89,37 @@ TEST_P(SkyKernel, DrawsByFlux)
     const bool same = got[i + 1].x == got[i + 2].x && got[i + 1].y == got[i + 2].y && got[i].w == got[i + 1].w;
     elsewhere += !same;
     if (!same || std::abs(x - std::round(x)) < 1e-4 || std::abs(down - 0.5) > 0.499) continue;
+    const float* rgb = map.rgb.data() + 3 * (row * width + column);
+    if (by_peaks) {
+      ASSERT_NEAR(double(got[i + 2].w), ((rgb[0] + rgb[1] + rgb[2]) / 3.0 - floor) / all_drawn, 1e-5);
+    }
     // Radiance is colour * density, of grey light of 1 in all.
     for (std::size_t c = 0; c < 3; ++c) {
       const double carried = static_cast<double>(c == 0 ? got[i + 1].x : c == 1 ? got[i + 1].y : got[i + 1].z);
-      ASSERT_NEAR(carried * static_cast<double>(got[i].w), static_cast<double>(map.rgb[3 * (row * width + column) + c]) / all, 1e-5);
+      ASSERT_NEAR(carried * static_cast<double>(got[i].w), static_cast<double>(rgb[c]) / all, 1e-5);
     }
   }
   EXPECT_LT(elsewhere, 1e-4 * count);
   EXPECT_GT(chi_square_test(counts, chances).p, false_alarm);
   for (std::size_t i = 0; i < chances.size(); ++i) chances[i] *= i % 2 == 0 ? 1.03 : 0.97;
   EXPECT_LT(chi_square_test(counts, chances).p, false_alarm) << "chances that are 3 % off pass";
+}
+
+TEST_P(SkyKernel, DrawsByFlux) { expect_drawn(uneven(GetParam()[0], GetParam()[1]), false, 0); }
+
+TEST_P(SkyKernel, DrawsByPeaks)
+{
+  const scene::Environment map = uneven(GetParam()[0], GetParam()[1]);
+  expect_drawn(map, true, scene::flux_of(map).grey / (4 * M_PI));
+}
+
+TEST(Sky, AnEvenSkyHasNoPeaks)
+{
+  scene::Environment map{.width = 16, .height = 8};
+  map.rgb.assign(3 * 16 * 8, 0.7f);
+  EXPECT_FALSE(tracing::make_sky_tables(map).size.has_peaks);
+  map.rgb[100] = 70;
+  EXPECT_TRUE(tracing::make_sky_tables(map).size.has_peaks);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, SkyKernel, testing::Values(std::array{16, 8}, std::array{6, 5}, std::array{3, 1}),

@@ -247,8 +247,27 @@ TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes)
 TEST_F(RunFolder, OnlyAFolderThatWasMadeIsNew)
 {
   fs::create_directory(folder / "of the user");
-  EXPECT_FALSE(run::claim_folder(folder / "of the user"));
-  EXPECT_TRUE(run::claim_folder(folder / "new" / "inside"));
+  for (const char* name : {"of the user", "new"}) run::ClaimedFolder(folder / name);
+  EXPECT_TRUE(fs::exists(folder / "of the user"));
+  EXPECT_FALSE(fs::exists(folder / "new"));
+}
+
+TEST_F(RunFolder, IsClaimedOnce)
+{
+  const auto claim = [&](bool alone) { return run::ClaimedFolder(folder / "film", alone); };
+  const auto refused = [&](bool alone) {
+    EXPECT_THAT([&] { claim(alone); }, ThrowsMessage<Error>(HasSubstr("another process writes into it")));
+  };
+  {
+    const auto one = claim(true);
+    refused(true);
+    refused(false);
+  }
+  {
+    const auto some = claim(false), others = claim(false);
+    refused(true);
+  }
+  claim(true);
 }
 
 TEST_F(RunFolder, AnotherPresetIsAnotherRun)

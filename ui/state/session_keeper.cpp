@@ -9,8 +9,6 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <ctime>
 
@@ -26,17 +24,8 @@ constexpr std::size_t most_earlier = 10;
 constexpr std::uintmax_t most_bytes = 64u << 20; ///< of a session that somebody may have put there
 constexpr const char *session_name = "session.json", *settings_name = "settings.json", *lock_name = "lock";
 
-/// A file that this process alone holds open, as long as somebody has this; null where another one has it, or it cannot be made.
-SessionKeeper::HeldLock hold(const fs::path& file)
-{
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (descriptor < 0) return nullptr;
-  SessionKeeper::HeldLock held(new int(descriptor), [](const int* open) {
-    ::close(*open);
-    delete open;
-  });
-  return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 ? held : nullptr;
-}
+/// Null also where the file cannot be made.
+FileLock lock_file(const fs::path& file) { return lock_open_file(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)); }
 
 std::string read_limited(const fs::path& file)
 {
@@ -75,7 +64,7 @@ void write_pin(const fs::path& folder, const PinnedRun& run)
 struct SessionKeeper::Writer {
   fs::path folder; ///< of all sessions
   fs::path own;    ///< of this window's
-  HeldLock lock;
+  FileLock lock;
   SessionText text;
 
   /// On any thread, one at a time. What went wrong; empty where nothing did.
@@ -96,7 +85,7 @@ SessionKeeper::SessionKeeper(fs::path folder) : folder_(std::move(folder))
     own = sessions / (number == 1 ? name : fmt::format("{}-{}", name, number));
     if (fs::create_directory(own, error)) break; // a new one
   }
-  if (!error) writer_->lock = hold(own / lock_name);
+  if (!error) writer_->lock = lock_file(own / lock_name);
   if (!writer_->lock) {
     const std::string reason = error ? error.message() : "its lock cannot be made";
     folder_.clear();
@@ -113,7 +102,7 @@ void SessionKeeper::find_earlier()
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "sessions", error))
     if (entry.path() != writer_->own && entry.path().extension() != ".unreadable") folders.push_back(entry.path());
   for (const fs::path& folder : folders) {
-    SessionKeeper::HeldLock held = hold(folder / lock_name);
+    FileLock held = lock_file(folder / lock_name);
     if (!held) continue; // its window is open
     const fs::file_time_type kept = fs::last_write_time(folder / session_name, error);
     const SessionHeader header = error ? SessionHeader{} : header_of(folder / session_name);
@@ -159,7 +148,7 @@ void SessionKeeper::reopen(Workbench& workbench)
   if (earlier_.empty()) return;
   const fs::path folder = earlier_.front().folder;
   earlier_.erase(earlier_.begin());
-  HeldLock held = hold(folder / lock_name);
+  FileLock held = lock_file(folder / lock_name);
   if (!held) return workbench.apply({command::Report{"the earlier session was opened in another window"}});
   try {
     workbench.restore(parse_session(read_limited(folder / session_name), (folder / session_name).string()), folder);

@@ -2,6 +2,7 @@
 // Keeps the window's session and settings in files while it is open, so that a window that was killed loses a second at most; finds the
 // sessions that earlier windows left. Each window has a folder of its own, which it holds locked: several windows may be open.
 #pragma once
+#include "base/file_lock.h"
 #include "ui/state/session.h"
 #include "ui/state/workbench.h"
 
@@ -10,7 +11,6 @@ namespace nephroid::ui {
 class SessionKeeper {
 public:
   using Clock = std::chrono::steady_clock;
-  using HeldLock = std::shared_ptr<const int>; ///< null: not held
 
   /// folder: state_folder(), or another for tests; empty: nothing is kept and nothing found. Throws failed where it cannot be made.
   explicit SessionKeeper(std::filesystem::path folder);
@@ -35,7 +35,7 @@ private:
     std::filesystem::path folder;
     bool closed = false;
     std::filesystem::file_time_type kept;
-    HeldLock lock = {}; ///< while they are looked for
+    FileLock lock = {}; ///< while they are looked for
   };
   /// What there is to write.
   struct Work {
@@ -43,7 +43,7 @@ private:
     std::vector<PinnedRun> pins; ///< of session.pins, in their order
     Settings settings;
     std::filesystem::path replaces; ///< an earlier session that is removed when this one is kept; empty: none
-    HeldLock lock;                  ///< its
+    FileLock lock;                  ///< its
   };
   struct Writer;
   void find_earlier();
@@ -57,7 +57,7 @@ private:
   std::shared_ptr<Writer> writer_;   ///< shared with the task that writes
   std::vector<Earlier> earlier_;     ///< the one to go back to first comes first
   std::filesystem::path taken_over_; ///< an earlier session that is not needed once this one is kept
-  HeldLock taken_over_lock_;         ///< its
+  FileLock taken_over_lock_;         ///< its
   std::optional<Work> newest_;       ///< what was written last, or is being written
   TaskKey writes_;
   std::string said_; ///< the error that was said last

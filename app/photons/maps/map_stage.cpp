@@ -35,7 +35,7 @@ public:
     double sum = 0;
     for (const std::uint32_t pixel : world_.pixels.glass)
       for (std::size_t c = 0; c < 3; ++c) sum += noise.of(3 * std::size_t{pixel} + c);
-    const double work = static_cast<double>(noise.passes) * paths_ * work_of_a_path * eye_.size();
+    const double work = static_cast<double>(noise.passes) * paths_ * work_through_glass * eye_.size();
     if (work > 0)
       paths_ = static_cast<std::uint32_t>(std::clamp(std::round(paths_ * std::sqrt(sum / work / noise.photon_gain)), 1.0, 64.0));
   }

@@ -42,9 +42,9 @@ Json caustic_json(const scene::Scene& scene, const Caustic& caustic)
   const glm::dvec3 corner = r.centre - 0.5 * r.width * r.right + 0.5 * r.height * r.up;
   return {{"object", scene.objects[static_cast<std::size_t>(r.object)].name},
           {"file", caustic.file},
-          {"corner_m", list(metres * (scene.origin + corner))},
-          {"across_m", list(metres * r.width * r.right)},
-          {"down_m", list(-metres * r.height * r.up)},
+          {"corner_m", three_numbers(metres * (scene.origin + corner))},
+          {"across_m", three_numbers(metres * r.width * r.right)},
+          {"down_m", three_numbers(-metres * r.height * r.up)},
           {"front", r.is_front},
           {"luminous_w", caustic.watts}};
 }
@@ -56,11 +56,11 @@ Json area_lights(const scene::Scene& scene)
     if (light.type != preset::Light::Type::area || scene::is_environment(light)) continue;
     const GltfColour colour = colour_of_light(light.spectrum);
     const double metres = scene.metres_per_unit;
-    lights.push_back({{"position_m", list(metres * (scene.origin + glm::dvec3(light.position)))},
-                      {"edges_m", {list(metres * glm::dvec3(light.edge_u)), list(metres * glm::dvec3(light.edge_v))}},
-                      {"direction", list(light.direction)},
+    lights.push_back({{"position_m", three_numbers(metres * (scene.origin + glm::dvec3(light.position)))},
+                      {"edges_m", {three_numbers(metres * glm::dvec3(light.edge_u)), three_numbers(metres * glm::dvec3(light.edge_v))}},
+                      {"direction", three_numbers(light.direction)},
                       {"colour", colour.rgb},
-                      {"luminous_w", light.power_w * colour.watts}});
+                      {"luminous_w", light.power_w * colour.luminous_per_watt}});
   }
   return lights;
 }
@@ -89,9 +89,13 @@ std::vector<std::string> left_out(const scene::Scene& scene)
 {
   std::vector<std::string> notes;
   if (!area_lights(scene).empty()) notes.push_back("glTF has no area lights: those are in caustics.json, and blender.py makes them");
-  if (scene.environment) notes.push_back("glTF has no surroundings: those are in surroundings.exr, and blender.py takes them");
-  for (const scene::Light& light : scene.lights)
-    if (!light.inside.empty()) notes.push_back("a light is inside glass: another renderer may keep its light there");
+  if (scene.environment)
+    notes.push_back(fmt::format("glTF has no surroundings: those are in {}, and blender.py takes them", surroundings_file));
+  if (std::ranges::any_of(scene.lights, [](const scene::Light& light) { return !light.inside.empty(); }))
+    notes.push_back("a light is inside glass: another renderer may keep its light there");
+  if (std::ranges::any_of(scene.lights,
+                          [](const scene::Light& light) { return light.type == preset::Light::Type::spot && light.cos_half_angle < 0; }))
+    notes.push_back("a spot of glTF has at most half of all directions: what a wider one sends beyond them is missing");
   return notes;
 }
 
@@ -109,7 +113,7 @@ Caustic::Caustic(const scene::Scene& scene, const Receiver& on, const job::Pictu
   for (std::size_t i = 0; i < irradiance.data.size(); i += 3) watts += measure::luminance(&irradiance.data[i]) * area;
 }
 
-bool claim_export(const fs::path& folder) { return claim_folder(folder, "an export", {list_file}); }
+FolderContent content_of_export() { return {"an export", {list_file}}; }
 
 std::vector<std::string> write_export(const fs::path& folder, const scene::Scene& scene, const preset::Preset& preset,
                                       const std::vector<Caustic>& caustics, double white)
@@ -125,6 +129,7 @@ std::vector<std::string> write_export(const fs::path& folder, const scene::Scene
            {"area_lights", area_lights(scene)},
            {"surroundings", nullptr}};
   for (const fs::path& old : caustics_in(folder)) fs::remove(old);
+  fs::remove(folder / surroundings_file);
   for (const Caustic& caustic : caustics) all["caustics"].push_back(caustic_json(scene, caustic));
   for (const scene::Object& object : scene.objects)
     if (material_of(scene, object).type == scene::Material::Type::diffuse)

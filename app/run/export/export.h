@@ -22,8 +22,8 @@ struct Caustic {
   Caustic(const scene::Scene& scene, const Receiver& receiver, const job::Picture& picture);
 };
 
-/// As claim_folder, for an export.
-bool claim_export(const std::filesystem::path& folder);
+/// By which a folder that is exported to is claimed.
+FolderContent content_of_export();
 
 /// scene.glb, a picture of each caustic, surroundings.exr where the scene has some, caustics.json and blender.py, each whole. white: what
 /// shows the picture well. Returns what no glTF file holds, a sentence each.

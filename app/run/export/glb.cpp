@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/export/glb.h"
 
+#include "base/error.h"
+
 #include <algorithm>
-#include <cstring>
+#include <limits>
 
 namespace nephroid::run {
 namespace {
@@ -87,6 +89,8 @@ std::string Glb::bytes() const
   std::string chunks;
   append_chunk(chunks, "JSON", complete.dump(), ' ');
   append_chunk(chunks, "BIN\0", bin_, '\0');
+  if (chunks.size() > std::numeric_limits<std::uint32_t>::max() - 12)
+    throw failed("scene.glb", "the scene is larger than 4 GiB, the most that the format holds");
   std::string file = "glTF";
   append(file, 2);
   append(file, static_cast<std::uint32_t>(12 + chunks.size()));

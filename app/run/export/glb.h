@@ -12,14 +12,14 @@
 namespace nephroid::run {
 
 /// As glTF and caustics.json have three numbers.
-inline nlohmann::ordered_json list(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+inline nlohmann::ordered_json three_numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 class Glb {
 public:
   using Json = nlohmann::ordered_json;
   Json json;
 
-  /// What they add is named by its index in the file's list.
+  /// What they add is named by its index in the file's list. Nothing is empty.
   std::size_t positions(const std::vector<glm::vec3>& values) { return vectors(values, true); } ///< with the bounds that these need
   std::size_t normals(const std::vector<glm::vec3>& values) { return vectors(values, false); }
   std::size_t places(const std::vector<glm::vec2>& values); ///< in a texture
@@ -29,7 +29,7 @@ public:
   std::size_t add(const char* list, Json item);
   void use(const char* extension); ///< each is named once
 
-  /// The file.
+  /// The file. Throws failed where it would be larger than the format can be: 4 GiB.
   std::string bytes() const;
 
 private:

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
 #include <unordered_map>
 
 namespace nephroid::run {
@@ -24,6 +26,21 @@ double at(const optics::Spectrum& spectrum, double nm)
   const double place = nm - optics::first_nm;
   const auto i = static_cast<std::size_t>(place);
   return std::lerp(spectrum[i], spectrum[i + 1], place - std::floor(place));
+}
+
+/// Above which values have `part` of the sum of all that is positive; 1 where nothing is.
+float clipping(std::vector<float> values, double part)
+{
+  std::ranges::sort(values, std::greater());
+  const double sum =
+      std::accumulate(values.begin(), values.end(), 0.0, [](double so_far, float value) { return so_far + std::max(0.0f, value); });
+  if (!(sum > 0)) return 1;
+  double above = 0; // what is over values[i]
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    above += static_cast<double>(i + 1) * (static_cast<double>(values[i]) - static_cast<double>(values[i + 1]));
+    if (above > part * sum) return values[i];
+  }
+  return values.front();
 }
 
 /// A turn that takes -z to `forward` and y near to `up`.
@@ -112,7 +129,7 @@ private:
     const std::size_t mesh_index =
         glb_.add("meshes", {{"name", object.name},
                             {"primitives", {{{"attributes", std::move(attributes)}, {"indices", corners}, {"material", material}}}}});
-    add_node({{"name", object.name}, {"mesh", mesh_index}, {"translation", list(placed(middle))}});
+    add_node({{"name", object.name}, {"mesh", mesh_index}, {"translation", three_numbers(placed(middle))}});
   }
 
   /// With the vertices that it has alone.
@@ -163,14 +180,11 @@ private:
             {"pbrMetallicRoughness", {{"baseColorFactor", std::move(colour)}, {"metallicFactor", 0}, {"roughnessFactor", 1}}}};
   }
 
-  /// The texture holds bytes: what all but the brightest thousandth of it stays below is 1.
+  /// The texture holds bytes, whose largest stands for the level above which a hundredth of the caustic's light is.
   Json lit(Json material, const std::string& name, const Caustic& caustic)
   {
     const image::Image& picture = caustic.irradiance;
-    std::vector<float> sorted = picture.data;
-    const auto near_top = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 999 / 1000);
-    std::ranges::nth_element(sorted, near_top);
-    const float most = *near_top > 0 ? *near_top : 1;
+    const float most = clipping(picture.data, 0.01);
     std::vector<float> scaled = picture.data;
     for (float& value : scaled) value = std::max(0.0f, value / most);
     const std::size_t png = glb_.png(image::png(picture.width, picture.height, scaled));
@@ -223,7 +237,8 @@ private:
                                                     {"aspectRatio", static_cast<double>(camera.width) / camera.height},
                                                     {"znear", 1e-4 * farthest},
                                                     {"zfar", 10 * farthest}}}});
-    add_node({{"name", "camera"}, {"camera", lens}, {"translation", list(position)}, {"rotation", turn_to(camera.forward, camera.up)}});
+    add_node(
+        {{"name", "camera"}, {"camera", lens}, {"translation", three_numbers(position)}, {"rotation", turn_to(camera.forward, camera.up)}});
   }
 
   void add_light(const scene::Light& light, std::size_t number)
@@ -232,15 +247,15 @@ private:
     const GltfColour colour = colour_of_light(light.spectrum);
     const std::string name = fmt::format("light {}", number);
     Json made{{"name", name}, {"color", colour.rgb}};
-    const double lumens = light.power_w * colour.watts * most_lumens;
+    const double lumens = light.power_w * colour.luminous_per_watt * most_lumens;
     if (light.type == Type::directional) {
       made["type"] = "directional";
-      made["intensity"] = light.irradiance_w_m2 * colour.watts * most_lumens;
+      made["intensity"] = light.irradiance_w_m2 * colour.luminous_per_watt * most_lumens;
     } else if (light.type == Type::spot) {
       made["type"] = "spot";
       made["intensity"] = lumens / (2 * pi * (1 - light.cos_half_angle));
-      const double angle = std::acos(light.cos_half_angle);
-      made["spot"] = {{"innerConeAngle", angle}, {"outerConeAngle", angle}};
+      const double angle = std::min(std::acos(light.cos_half_angle), pi / 2);
+      made["spot"] = {{"innerConeAngle", 0.999 * angle}, {"outerConeAngle", angle}}; // the inner one has to be smaller
     } else {
       made["type"] = "point";
       made["intensity"] = lumens / (4 * pi);
@@ -251,7 +266,7 @@ private:
     Json node{{"name", name},
               {"rotation", turn_to(light.direction, across(light.direction))},
               {"extensions", {{"KHR_lights_punctual", {{"light", lights.size() - 1}}}}}};
-    if (light.type != Type::directional) node["translation"] = list(placed(light.position));
+    if (light.type != Type::directional) node["translation"] = three_numbers(placed(light.position));
     add_node(std::move(node));
   }
 
@@ -279,7 +294,7 @@ GltfColour colour_of_light(const optics::Spectrum& spectrum)
   GltfColour colour{optics::xyz_to_linear_srgb(xyz), 0};
   const double most = std::max({colour.rgb[0], colour.rgb[1], colour.rgb[2]});
   for (double& c : colour.rgb) c = std::max(0.0, c / most);
-  colour.watts = xyz[1] / optics::linear_srgb_to_xyz(colour.rgb)[1];
+  colour.luminous_per_watt = xyz[1] / optics::linear_srgb_to_xyz(colour.rgb)[1];
   return colour;
 }
 

@@ -9,10 +9,10 @@ namespace nephroid::run {
 /// Linear sRGB, 0..1, under D65.
 std::array<double, 3> colour_of_reflectance(const optics::Spectrum& reflectance);
 
-/// Of a light's spectrum: linear sRGB whose largest is 1, and what of a watt is luminous, over the luminance of that colour.
+/// Of a light's spectrum.
 struct GltfColour {
-  std::array<double, 3> rgb{};
-  double watts = 0;
+  std::array<double, 3> rgb{};  ///< linear sRGB, the largest is 1
+  double luminous_per_watt = 0; ///< over the luminance of rgb
 };
 GltfColour colour_of_light(const optics::Spectrum& spectrum);
 

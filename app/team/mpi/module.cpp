@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only file that knows MPI: a module that team.cpp loads.
 //
-// Nobody waits inside of MPI: its waits spin on a core, which a rank beside it could use, and never end where a rank has died. So every
-// call is begun, asked after at times, and in between it is seen whether the others are still there.
+// Nobody waits for others' work inside of MPI: its waits spin on a core, which a rank beside it could use, and never end where a rank has
+// died. So such a call is begun, asked after at times, and in between it is seen whether the others are still there.
 #include "base/error.h"
+#include "base/files.h"
 #include "team/team.h"
 
 #include <mpi.h>
@@ -15,6 +16,7 @@
 #include <chrono>
 #include <csignal>
 #include <exception>
+#include <functional>
 #include <sys/stat.h>
 #include <thread>
 #include <unistd.h>
@@ -26,7 +28,8 @@ using Clock = std::chrono::steady_clock;
 
 struct Rank {
   char host[MPI_MAX_PROCESSOR_NAME] = {};
-  ino_t processes = 0; ///< the name space of its process' number: containers have their own
+  std::size_t boot = 0; ///< of its machine's kernel: names may be alike
+  ino_t processes = 0;  ///< the name space of its process' number: containers have their own
   pid_t process = 0;
 };
 
@@ -35,6 +38,18 @@ ino_t own_processes()
   struct stat status {};
   return ::stat("/proc/self/ns/pid", &status) == 0 ? status.st_ino : 0;
 }
+
+std::size_t own_boot()
+{
+  try {
+    return std::hash<std::string>()(read_file("/proc/sys/kernel/random/boot_id"));
+  } catch (const Error&) {
+    return 0; // /proc is not mounted
+  }
+}
+
+/// How long the others of a sweep may take to save what was interrupted, before this rank ends all.
+constexpr std::chrono::seconds others_save{5};
 
 constexpr int no_more = -1; ///< in place of a number that is dealt
 constexpr int ask = 1, answer = 2;
@@ -45,12 +60,14 @@ public:
   {
     int given = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given); // deal() talks on a thread of its own
+    if (given < MPI_THREAD_SERIALIZED) throw failed("MPI", "its threads cannot take turns", {}, "use a build of Open MPI with threads");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
     ranks_.resize(static_cast<std::size_t>(size_));
     Rank own;
     int length = 0;
     MPI_Get_processor_name(own.host, &length);
+    own.boot = own_boot();
     own.processes = own_processes();
     own.process = ::getpid();
     MPI_Allgather(&own, sizeof own, MPI_BYTE, ranks_.data(), sizeof own, MPI_BYTE, MPI_COMM_WORLD);
@@ -58,9 +75,7 @@ public:
   /// Of a run that failed, abort() is the end.
   ~MpiRanks() override
   {
-    if (std::uncaught_exceptions() > 0) return;
-    wait_for_first(); // which may still write files
-    MPI_Finalize();
+    if (std::uncaught_exceptions() == 0) MPI_Finalize();
   }
 
   int rank() const override { return rank_; }
@@ -94,7 +109,12 @@ public:
 
   void deal(std::int64_t count, const std::function<void(std::int64_t)>& work) override
   {
-    rank_ == 0 ? deal_out(count, work) : take_dealt(work);
+    try {
+      rank_ == 0 ? deal_out(count, work) : take_dealt(work);
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::interrupted) std::this_thread::sleep_for(others_save);
+      throw;
+    }
   }
 
   [[noreturn]] void abort(int exit_code) override
@@ -105,13 +125,14 @@ public:
 
 private:
   const Rank& own() const { return ranks_[static_cast<std::size_t>(rank_)]; }
-  bool is_on_host(const Rank& other) const { return std::string_view(other.host) == own().host; }
+  bool is_on_host(const Rank& other) const { return std::string_view(other.host) == own().host && other.boot == own().boot; }
   std::string name_of(int rank) const { return fmt::format("rank {} on {}", rank, ranks_[static_cast<std::size_t>(rank)].host); }
 
   /// Rank 0 deals beside its own work.
   void deal_out(std::int64_t count, const std::function<void(std::int64_t)>& work)
   {
     std::atomic<std::int64_t> next = 0;
+    std::atomic<bool> has_failed = false;
     std::exception_ptr thrown;
     std::jthread others([&] {
       try {
@@ -120,8 +141,9 @@ private:
           MPI_Status who{};
           wait_until([&] {
             MPI_Iprobe(MPI_ANY_SOURCE, ask, MPI_COMM_WORLD, &has_asked, &who);
-            return has_asked != 0;
+            return has_asked != 0 || has_failed;
           });
+          if (has_failed) return; // which ends all ranks
           MPI_Recv(nullptr, 0, MPI_BYTE, who.MPI_SOURCE, ask, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
           std::int64_t number = next++;
           if (number >= count) number = no_more, --left;
@@ -135,7 +157,7 @@ private:
     try {
       for (std::int64_t number = next++; number < count; number = next++) work(number);
     } catch (...) {
-      next = count; // the others end what they have begun
+      has_failed = true;
       throw;
     }
     others.join();
@@ -187,7 +209,10 @@ private:
     Clock::time_point looked = began;
     while (!is_done()) {
       const Clock::time_point now = Clock::now();
-      if (now - began > std::chrono::microseconds(200)) std::this_thread::sleep_for(std::chrono::microseconds(50));
+      if (now - began > std::chrono::seconds(1))
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      else if (now - began > std::chrono::microseconds(200))
+        std::this_thread::sleep_for(std::chrono::microseconds(50));
       if (now - looked < std::chrono::milliseconds(200)) continue;
       looked = now;
       require_others();
