@@ -120,11 +120,11 @@ TEST_F(Ranks, FindABakeThatOneOfThemHas)
   EXPECT_EQ(json::parse(read_file(scratch.path() / "both" / "run.json"))["bake"]["from_file"], 1);
 }
 
-// Both are rank 0's work alone, and leave its kernels ready where the others' are not.
-TEST_F(Ranks, GiveOnePictureWithAReferenceAndAWhiteOfItsOwn)
+// What rank 0 has rendered alone before, here and of a reference, leaves its kernels ready where the others' are not.
+TEST_F(Ranks, GiveOnePictureWithAWhiteThatRank0Fits)
 {
-  expect_one_picture({"environment/ball", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "environment.directions=26",
-                      "--set", "environment.photons=20000", "--set", "white=auto", "--set", R"(reference={"type":"recipe","passes":2})"},
+  expect_one_picture({"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "spectral.photons_per_pass=20000",
+                      "--set", "white=auto"},
                      {2});
 }
 
