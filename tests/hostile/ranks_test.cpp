@@ -123,8 +123,8 @@ TEST_F(Ranks, FindABakeThatOneOfThemHas)
 // What rank 0 has rendered alone before, here and of a reference, leaves its kernels ready where the others' are not.
 TEST_F(Ranks, GiveOnePictureWithAWhiteThatRank0Fits)
 {
-  expect_one_picture({"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set", "spectral.photons_per_pass=20000",
-                      "--set", "white=auto"},
+  expect_one_picture({"first-light", "--passes", "2", "--set", "scene.camera.resolution=[40,30]", "--set",
+                      "spectral.photons_per_pass=20000", "--set", "white=auto"},
                      {2});
 }
 
