@@ -104,7 +104,7 @@ void run_one(const RunOptions& options, Target& target, const std::stop_token& i
   if (done && !done->changed.empty())
     throw bad_input(target.folder, "this run is finished, but " + done->changed, {}, "run without --resume to start over");
   if (team.told(done.has_value())) {
-    if (!done) return; // what rank 0 says
+    if (!done) return; // rank 0 reports it
     fmt::print(stderr, "{}: this run is finished\n", target.label);
     return report_result(options, target, done->progress, true);
   }

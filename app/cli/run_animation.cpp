@@ -73,7 +73,7 @@ private:
   {
     preset::at_origins(target_.preset, [&] {
       shared_.prepared = run::prepare(target_.preset, shared_.prepared ? &*shared_.prepared : nullptr, {interrupted_, {}});
-      run::require_memory(*shared_.prepared, device_of(options_, shared_)); // what cannot be leaves no folder
+      require_memory(*shared_.prepared, device_of(options_, shared_), ranks_); // what cannot be leaves no folder
     });
     if (!leads()) return;
     claimed_.emplace(target_.folder, options_.frames.empty()); // others may render the other frames
@@ -96,7 +96,6 @@ private:
     }
     if (done && shared_.notes.insert(done->changed).second)
       fmt::print(stderr, "note: {}: {}: finished frames start anew\n", target_.label, done->changed);
-    run::hide_frame(target_.folder, frame);
     preset::at_origins(target.preset, [&] { render(options_, target, interrupted_, shared_); });
     ++rendered_;
   }

@@ -69,12 +69,13 @@ public:
       if (leads && (!is_frame() || shared.notes.insert(note).second)) fmt::print(stderr, "note: {}\n", note);
     const compute::Context& context = device_of(options_, shared);
     if (shared.ranks) require_same(*shared.ranks, prepared, context);
+    std::unique_ptr<job::Job> job = taken_on(shared);
+    if (!job) require_memory(prepared, context, shared.ranks); // a run that cannot be leaves no folder
     if (!leads) return follow(prepared, context, team);
     std::optional<compute::TellOfCompiling> telling(std::in_place, context, [watch] { watch.begin("compiling kernels"); });
-    std::unique_ptr<job::Job> job = taken_on(shared);
     std::optional<compute::Together> together;
-    if (!job) run::require_memory(prepared, context); // a run that cannot be leaves no folder
     const run::ClaimedFolder claimed(target_.folder);
+    if (is_frame()) run::hide_frame(target_.animation, target_.preset.provenance.frame.value());
     reference_ = reference(prepared, context);
     if (!job) {
       together.emplace(context, team);
@@ -98,7 +99,6 @@ private:
   /// All that the other ranks do of a run.
   static void follow(const run::Prepared& prepared, const compute::Context& context, const Team& team)
   {
-    run::require_memory(prepared, context);
     const compute::Together together(context, team);
     const std::unique_ptr<job::Job> job = run::make_job(prepared, context);
     job::follow(*job, team);
@@ -345,6 +345,18 @@ void report_result(const RunOptions& options, const Target& target, const job::P
   const auto beyond = std::upper_bound(options.pictures_at.begin(), options.pictures_at.end(), progress.work_seconds);
   fmt::print(stderr, "note: {}: the run ended after {:.1f} s of work: no picture at {} s\n", target.label, progress.work_seconds,
              fmt::join(beyond, options.pictures_at.end(), ", "));
+}
+
+void require_memory(const run::Prepared& prepared, const compute::Context& context, const std::shared_ptr<team::Ranks>& ranks)
+{
+  if (!ranks) return run::require_memory(prepared, context);
+  std::optional<Error> lack;
+  try {
+    run::require_memory(prepared, context);
+  } catch (const Error& error) {
+    lack = error;
+  }
+  team::require_all(*ranks, lack);
 }
 
 const compute::Context& device_of(const RunOptions& options, Shared& shared)

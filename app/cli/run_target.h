@@ -55,6 +55,9 @@ struct Shared {
 /// The device of this command: opens it at the first call.
 const compute::Context& device_of(const RunOptions& options, Shared& shared);
 
+/// Throws as run::require_memory. No rank goes on where one lacks it.
+void require_memory(const run::Prepared& prepared, const compute::Context& context, const std::shared_ptr<team::Ranks>& ranks);
+
 /// Throws bad_input on the ranks that would compute other bits of this preset than rank 0. Leaves it prepared.
 void require_same(const RunOptions& options, const preset::Preset& preset, const std::stop_token& interrupted, Shared& shared,
                   team::Ranks& ranks);

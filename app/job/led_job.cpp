@@ -53,15 +53,14 @@ public:
 
   void step() override
   {
-    if (thrown_) std::rethrow_exception(thrown_); // half way through a call: the ranks are no longer in step
-    team_.told(Call::step);
+    call(Call::step);
     job_->step();
   }
   bool finished() const override { return job_->finished(); }
   Progress progress() const override { return job_->progress(); }
   Snapshot snapshot() override
   {
-    team_.told(Call::snapshot);
+    call(Call::snapshot);
     Snapshot snapshot = kept([&] { return job_->snapshot(); });
     const Team::Talk talk = team_.talk();
     snapshot.scalars.insert(snapshot.scalars.end(), {{"ranks", "count", static_cast<double>(team_.size())},
@@ -73,14 +72,14 @@ public:
   bool estimates_error() const override { return job_->estimates_error(); }
   void save(ByteSink& to) override
   {
-    team_.told(Call::save);
+    call(Call::save);
     Patient patient(to);
     kept([&] { job_->save(patient); });
     patient.rethrow();
   }
   void load(ByteSource& from) override
   {
-    team_.told(Call::load);
+    call(Call::load);
     std::vector<std::byte> bytes(from.left());
     from.read(bytes);
     bytes = team_.told(std::move(bytes));
@@ -90,6 +89,11 @@ public:
   }
 
 private:
+  void call(Call next)
+  {
+    if (thrown_) std::rethrow_exception(thrown_); // half way through a call: the ranks are no longer in step
+    team_.told(next);
+  }
   template <class Work>
   std::invoke_result_t<Work> kept(Work work)
   {

@@ -18,8 +18,8 @@
 
 namespace nephroid::photons {
 
-/// A path from the eye takes about as long as a photon, and twice as long through glass. Of the layers "direct" and "background" glass has
-/// so many a sample (PATHS_THROUGH_GLASS in kernels/tracing/eye_path.h).
+/// A path from the eye takes about as long as a photon, and twice as long through glass. A sample of the
+/// layers "direct" and "background" is of so many paths there (PATHS_THROUGH_GLASS in kernels/tracing/eye_path.h).
 inline constexpr double work_of_a_path = 1, work_through_glass = 2, paths_through_glass = 4;
 
 /// The noise of a stage's layer, and what it is to the picture.

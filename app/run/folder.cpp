@@ -30,7 +30,7 @@ bool is_ours(const fs::path& folder, const std::vector<std::string>& files)
 
 } // namespace
 
-ClaimedFolder::ClaimedFolder(const fs::path& folder, bool alone, const FolderContent& content) : folder_(folder)
+ClaimedFolder::ClaimedFolder(const fs::path& folder, bool alone, const FolderContent& content) : folder_{folder}
 {
   try {
     claim(alone, content);
@@ -40,26 +40,28 @@ ClaimedFolder::ClaimedFolder(const fs::path& folder, bool alone, const FolderCon
   }
 }
 
-ClaimedFolder::~ClaimedFolder()
+ClaimedFolder::Made::~Made()
 {
   std::error_code ignored;
-  if (is_new_) fs::remove(folder_, ignored); // refused where anything is in it
+  if (is_new) fs::remove(path, ignored); // refused where anything is in it
 }
 
 void ClaimedFolder::claim(bool alone, const FolderContent& content)
 {
-  if (is_there(folder_) && !fs::is_directory(folder_))
-    throw bad_input(folder_.string(), "is a file", "expected a folder for the files of " + content.whose, "choose another one with -o");
-  is_new_ = fs::create_directories(folder_);
-  if (!is_ours(folder_, content.files))
-    throw bad_input(folder_.string(), "holds files that are not of " + content.whose, "expected an empty or a new folder",
-                    "choose another one with -o");
-  lock_ = lock_open_file(::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), alone);
+  const fs::path& folder = folder_.path;
+  if (is_there(folder) && !fs::is_directory(folder))
+    throw bad_input(folder.string(), "is a file", "expected a folder for the files of " + content.whose, "choose another one with -o");
+  folder_.is_new = fs::create_directories(folder);
+  lock_ = lock_open_file(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC), alone);
   if (!lock_ && errno == EWOULDBLOCK)
-    throw bad_input(folder_.string(), "another process writes into it", {}, "wait for its end, or choose another folder with -o");
-  for (const auto& entry : fs::directory_iterator(folder_))
-    if (is_temporary_name(entry.path())) fs::remove(entry.path());
-  const fs::path probe = folder_ / "probe";
+    throw bad_input(folder.string(), "is written into by another command", {}, "wait for its end, or choose another folder with -o");
+  if (!is_ours(folder, content.files))
+    throw bad_input(folder.string(), "holds files that are not of " + content.whose, "expected an empty or a new folder",
+                    "choose another one with -o");
+  if (alone) // else they may be others'
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (is_temporary_name(entry.path())) fs::remove(entry.path());
+  const fs::path probe = folder / "probe";
   write_file_whole(probe, "writable?\n");
   fs::remove(probe);
 }

@@ -89,24 +89,25 @@ struct FolderContent {
   std::vector<std::string> files{"plan.json", "preset.json"}; ///< that each of those has
 };
 
-/// A folder that this process writes into, as long as this lives.
+/// A folder that this process writes into, as long as this lives. One that was made for it and is still empty then is removed.
 class ClaimedFolder {
 public:
   /// Makes the folder if it is missing and shows that it can be written to, before anything is rendered. alone: else other processes may
   /// claim it so, too. Throws bad_input where it is a file, holds anything else, or is another process'; failed where it cannot be written
-  /// to. Where a file system locks no folders, as NFS, other processes are not seen.
+  /// to. On NFS only processes of the same node are seen.
   explicit ClaimedFolder(const std::filesystem::path& folder, bool alone = true, const FolderContent& content = {});
-  /// Removes the folder if it is empty and was made here.
-  ~ClaimedFolder();
   ClaimedFolder(const ClaimedFolder&) = delete;
   ClaimedFolder& operator=(const ClaimedFolder&) = delete;
 
 private:
   void claim(bool alone, const FolderContent& content);
 
-  std::filesystem::path folder_;
-  bool is_new_ = false;
   FileLock lock_;
+  struct Made {
+    std::filesystem::path path;
+    bool is_new = false;
+    ~Made(); ///< removes a new folder if it is empty
+  } folder_;
 };
 
 /// A new run in a claimed folder: removes an older run's results and writes preset.json and plan.json. This and all writing below

@@ -95,8 +95,8 @@ double choose_power_unit(const scene::Scene& scene)
   return power_of_two_below(strongest);
 }
 
-/// What peaks have to hold of the environment's flux, so that surfaces draw by them, too.
-constexpr double least_peaks = 1e-3;
+/// What peaks have to hold of the environment's flux: more than rounding.
+constexpr double least_peaks = 1e-6;
 
 double chance(const std::vector<float>& cdf, std::size_t i) { return double(cdf[i]) - (i > 0 ? double(cdf[i - 1]) : 0.0); }
 
@@ -190,7 +190,7 @@ shared::DeviceBackground picture_size(const scene::Environment& environment)
 SkyTables make_sky_tables(const scene::Environment& environment)
 {
   const scene::EnvironmentFlux whole = scene::flux_of(environment);
-  const Flux flux = flux_by_rows(environment, 0), peaks = flux_by_rows(environment, whole.grey / (4 * std::numbers::pi));
+  const Flux flux = flux_by_rows(environment, 0), peaks = flux_by_rows(environment, whole.grey / (4 * pi));
   const auto width = static_cast<std::size_t>(environment.width);
   SkyTables tables;
   tables.size = picture_size(environment);

@@ -43,7 +43,7 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
   return arrival;
 }
 
-// The four numbers of sample `sample` of a light with places at a pixel, which takes `paths` of them a frame. Those of one half of the film
+// The four numbers of sample `sample` of an area light or the environment at a pixel, which takes `paths` of them a frame. Those of one half of the film
 // follow a sequence; the halves are independent. Sets 0 and 1 of a sequence are of photons.
 static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel)
 {

@@ -256,7 +256,7 @@ TEST_F(RunFolder, IsClaimedOnce)
 {
   const auto claim = [&](bool alone) { return run::ClaimedFolder(folder / "film", alone); };
   const auto refused = [&](bool alone) {
-    EXPECT_THAT([&] { claim(alone); }, ThrowsMessage<Error>(HasSubstr("another process writes into it")));
+    EXPECT_THAT([&] { claim(alone); }, ThrowsMessage<Error>(HasSubstr("is written into by another command")));
   };
   {
     const auto one = claim(true);

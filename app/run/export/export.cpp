@@ -128,6 +128,7 @@ std::vector<std::string> write_export(const fs::path& folder, const scene::Scene
            {"matt", Json::object()},
            {"area_lights", area_lights(scene)},
            {"surroundings", nullptr}};
+  const std::string glb = gltf_of(scene, preset, caustics).bytes(); // what it throws leaves the older export
   for (const fs::path& old : caustics_in(folder)) fs::remove(old);
   fs::remove(folder / surroundings_file);
   for (const Caustic& caustic : caustics) all["caustics"].push_back(caustic_json(scene, caustic));
@@ -142,7 +143,7 @@ std::vector<std::string> write_export(const fs::path& folder, const scene::Scene
   write_file_whole(folder / list_file, all.dump(2) + "\n"); // first: it says whose folder this is
   for (const Caustic& caustic : caustics) image::write_exr(folder / caustic.file, caustic.irradiance);
   if (scene.environment) image::write_exr(folder / surroundings_file, picture_of(*scene.environment));
-  write_file_whole(folder / "scene.glb", gltf_of(scene, preset, caustics).bytes());
+  write_file_whole(folder / "scene.glb", glb);
   for (const ExportScript& script : export_scripts()) write_file_whole(folder / script.name, script.text);
   return left_out(scene);
 }

@@ -35,7 +35,7 @@ float clipping(std::vector<float> values, double part)
   const double sum =
       std::accumulate(values.begin(), values.end(), 0.0, [](double so_far, float value) { return so_far + std::max(0.0f, value); });
   if (!(sum > 0)) return 1;
-  double above = 0; // what is over values[i]
+  double above = 0; // what is over the next value
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
     above += static_cast<double>(i + 1) * (static_cast<double>(values[i]) - static_cast<double>(values[i + 1]));
     if (above > part * sum) return values[i];

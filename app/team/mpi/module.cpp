@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Rank {
   char host[MPI_MAX_PROCESSOR_NAME] = {};
-  std::size_t boot = 0; ///< of its machine's kernel: names may be alike
+  std::size_t boot = 0; ///< of its machine's kernel: two machines' names may be alike, and containers of one have several
   ino_t processes = 0;  ///< the name space of its process' number: containers have their own
   pid_t process = 0;
 };
@@ -48,7 +48,7 @@ std::size_t own_boot()
   }
 }
 
-/// How long the others of a sweep may take to save what was interrupted, before this rank ends all.
+/// How long the other ranks may take to save a run or frame that was interrupted, before this one ends all.
 constexpr std::chrono::seconds others_save{5};
 
 constexpr int no_more = -1; ///< in place of a number that is dealt
@@ -125,7 +125,10 @@ public:
 
 private:
   const Rank& own() const { return ranks_[static_cast<std::size_t>(rank_)]; }
-  bool is_on_host(const Rank& other) const { return std::string_view(other.host) == own().host && other.boot == own().boot; }
+  bool is_on_host(const Rank& other) const
+  {
+    return own().boot != 0 ? other.boot == own().boot : std::string_view(other.host) == own().host;
+  }
   std::string name_of(int rank) const { return fmt::format("rank {} on {}", rank, ranks_[static_cast<std::size_t>(rank)].host); }
 
   /// Rank 0 deals beside its own work.
