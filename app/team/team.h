@@ -25,7 +25,8 @@ public:
     tell({&nothing, 1});
   }
   /// Calls work(0), ..., work(count - 1), each on one rank: whoever is free takes the next. Returns on rank 0 once all ranks are done, on
-  /// another one once there is nothing to begin. Where work is interrupted, this throws some seconds later, for the others have to save theirs.
+  /// another one once there is nothing to begin. Where work is interrupted, this throws some seconds later, for the others have to save
+  /// theirs.
   virtual void deal(std::int64_t count, const std::function<void(std::int64_t)>& work) = 0;
   /// Ends all ranks at once, with this exit code.
   [[noreturn]] virtual void abort(int exit_code) = 0;
