@@ -76,20 +76,22 @@ photons::RunTables device_tables(const preset::Preset& preset)
   return photons::make_lit_tables(spectral::settings(preset), scene, scene::build_bvh(scene.geometry), {});
 }
 
-std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context)
+std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context,
+                                      const ChangeScene& change)
 {
   leave_out.occlusion = leave_out.light_types = leave_out.mirrors = leave_out.bending = leave_out.attenuation = leave_out.smooth_normals =
       false;
-  const scene::Scene scene = scene::load_scene(preset);
+  scene::Scene scene = scene::load_scene(preset);
+  if (change) change(scene);
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   photons::RunPlan plan = spectral::make_plan(preset, scene, bvh, leave_out);
   share_programs(plan.defines);
   return photons::make_job(preset, scene, bvh, plan, context);
 }
 
-job::Snapshot render(const preset::Preset& preset, const compute::Context& context)
+job::Snapshot render(const preset::Preset& preset, const compute::Context& context, const ChangeScene& change)
 {
-  const auto job = general_job(preset, {}, context);
+  const auto job = general_job(preset, {}, context, change);
   while (!job->finished()) job->step();
   return job->snapshot();
 }

@@ -11,6 +11,7 @@
 #include "photons/tables/run_tables.h"
 #include "preset/preset.h"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -19,10 +20,13 @@ namespace nephroid::check {
 
 /// A run of engine 1 with the general kernels rather than those made for the scene: so all checks together build two programs, which is
 /// most of their time on a device whose compiler has not seen them. Tests compare the two kinds. leave_out: of what is no kernel's code.
-std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context);
+/// change: of the preset's scene, if any.
+using ChangeScene = std::function<void(scene::Scene&)>;
+std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::LeaveOut leave_out, const compute::Context& context,
+                                      const ChangeScene& change = {});
 
 /// general_job to the preset's end.
-job::Snapshot render(const preset::Preset& preset, const compute::Context& context);
+job::Snapshot render(const preset::Preset& preset, const compute::Context& context, const ChangeScene& change = {});
 
 /// The tables that the engine would render the preset with.
 photons::RunTables device_tables(const preset::Preset& preset);
