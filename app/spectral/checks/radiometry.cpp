@@ -147,8 +147,9 @@ Result sky_through_nothing(const compute::Context& context, std::uint64_t seed)
     if (const double z = sums[c] / std::sqrt(squares[c]); std::abs(z) > std::abs(worst)) worst = z;
   return judged(
       worst, 6, "sigma",
-      fmt::format("a floor under half a sky of one colour, {:.3f} of its light through a ball of n = 1, against the sky's colour: ratio {:.4f}",
-                  hidden, 1 + sums[1] * 3 / static_cast<double>(direct.size())));
+      fmt::format(
+          "a floor under half a sky of one colour, {:.3f} of its light through a ball of n = 1, against the sky's colour: ratio {:.4f}",
+          hidden, 1 + sums[1] * 3 / static_cast<double>(direct.size())));
 }
 
 /// A pencil on a mirror that is not grey, then onto a screen: of every wavelength its reflectance is left, and no chance is in it.
