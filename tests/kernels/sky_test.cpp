@@ -63,14 +63,14 @@ void expect_drawn(const scene::Environment& map, bool by_peaks, double floor)
   const auto width = static_cast<std::size_t>(map.width), height = static_cast<std::size_t>(map.height);
   std::vector<double> counts(width * height * within * within, 0.0), chances = counts;
   const auto edge = [&](std::size_t row) { return std::cos(M_PI * static_cast<double>(row) / map.height); };
-  double all = 0, all_drawn = 0;
+  double flux = 0, drawn_flux = 0;
   for (std::size_t row = 0; row < height; ++row)
     for (std::size_t column = 0; column < width; ++column) {
       const float* rgb = map.rgb.data() + 3 * (row * width + column);
       const double steradians = (edge(row) - edge(row + 1)) * 2 * M_PI / map.width, grey = (rgb[0] + rgb[1] + rgb[2]) / 3.0;
       const double chance = std::max(grey - floor, 0.0) * steradians;
-      all += grey * steradians;
-      all_drawn += chance;
+      flux += grey * steradians;
+      drawn_flux += chance;
       for (std::size_t part = 0; part < within * within; ++part) chances[(row * width + column) * within * within + part] = chance;
     }
   int elsewhere = 0;
@@ -91,12 +91,12 @@ void expect_drawn(const scene::Environment& map, bool by_peaks, double floor)
     if (!same || std::abs(x - std::round(x)) < 1e-4 || std::abs(down - 0.5) > 0.499) continue;
     const float* rgb = map.rgb.data() + 3 * (row * width + column);
     if (by_peaks) {
-      ASSERT_NEAR(double(got[i + 2].w), ((rgb[0] + rgb[1] + rgb[2]) / 3.0 - floor) / all_drawn, 1e-5);
+      ASSERT_NEAR(double(got[i + 2].w), ((rgb[0] + rgb[1] + rgb[2]) / 3.0 - floor) / drawn_flux, 1e-5);
     }
     // Radiance is colour * density, of grey light of 1 in all.
     for (std::size_t c = 0; c < 3; ++c) {
       const double carried = static_cast<double>(c == 0 ? got[i + 1].x : c == 1 ? got[i + 1].y : got[i + 1].z);
-      ASSERT_NEAR(carried * static_cast<double>(got[i].w), static_cast<double>(rgb[c]) / all, 1e-5);
+      ASSERT_NEAR(carried * static_cast<double>(got[i].w), static_cast<double>(rgb[c]) / flux, 1e-5);
     }
   }
   EXPECT_LT(elsewhere, 1e-4 * count);

@@ -259,7 +259,7 @@ TEST_F(RunFolder, IsClaimedOnce)
     EXPECT_THAT([&] { claim(alone); }, ThrowsMessage<Error>(HasSubstr("is written into by another command")));
   };
   {
-    const auto one = claim(true);
+    const auto claimed = claim(true);
     refused(true);
     refused(false);
   }
