@@ -9,7 +9,7 @@
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "report/data.h"
-#include "team/team.h"
+#include "mpi/ranks.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -77,10 +77,10 @@ void put_in_order(std::vector<double>& times)
 
 /// Puts a number in place of "auto": rank 0's. The runs of a sweep and the frames of an animation have that of the first, so that their
 /// pictures can be compared; a run that goes on has its own.
-void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared, const Team& team)
+void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared, const Communicator& communicator)
 {
   if (target.preset.white != 0) return;
-  if (team.leads()) {
+  if (communicator.is_root()) {
     if (const auto own = options.resume ? run::white_of_run(target.folder) : std::nullopt) shared.white = own;
     if (!shared.white) {
       const preset::Preset first = target.preset.animation ? preset::at_frame(target.preset, 0) : target.preset;
@@ -91,19 +91,19 @@ void fit_white(const RunOptions& options, Target& target, const std::stop_token&
       fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
     }
   }
-  target.preset.white = team.told(shared.white.value_or(0));
+  target.preset.white = communicator.broadcast(shared.white.value_or(0));
 }
 
 void run_one(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared)
 {
-  const Team team(shared.ranks);
-  fit_white(options, target, interrupted, shared, team);
+  const Communicator communicator(shared.ranks);
+  fit_white(options, target, interrupted, shared, communicator);
   if (target.preset.animation) return render_animation(options, target, interrupted, shared);
   if (!options.frames.empty()) throw bad_input("--frames", "the preset has no animation", "expected one with the section 'animation'");
-  const auto done = options.resume && team.leads() ? run::finished_run(target.folder, target.preset) : std::nullopt;
+  const auto done = options.resume && communicator.is_root() ? run::finished_run(target.folder, target.preset) : std::nullopt;
   if (done && !done->changed.empty())
     throw bad_input(target.folder, "this run is finished, but " + done->changed, {}, "run without --resume to start over");
-  if (team.told(done.has_value())) {
+  if (communicator.broadcast(done.has_value())) {
     if (!done) return; // rank 0 reports it
     fmt::print(stderr, "{}: this run is finished\n", target.label);
     return report_result(options, target, done->progress, true);
@@ -120,7 +120,7 @@ void run_all(const RunOptions& options, std::vector<Target>& targets, const std:
 }
 
 /// Throws bad_input on the ranks that were asked for other runs than rank 0, before any begins.
-void require_same_runs(const RunOptions& options, const std::vector<Target>& targets, team::Ranks& ranks)
+void require_same_runs(const RunOptions& options, const std::vector<Target>& targets, mpi::Ranks& ranks)
 {
   std::string names, presets;
   for (const Target& target : targets) {
@@ -128,51 +128,51 @@ void require_same_runs(const RunOptions& options, const std::vector<Target>& tar
     presets += preset::to_json(target.preset);
   }
   constexpr std::size_t a_line = 200;
-  team::require_same(ranks, "list of runs",
+  mpi::require_same(ranks, "list of runs",
                      names.size() <= a_line ? names : fmt::format("{} of them, {:016x}", targets.size(), hash_of(names)));
-  team::require_same(ranks, "list of frames", options.frames.empty() ? "all" : options.frames);
-  team::require_same(ranks, "preset", fmt::format("{:016x}", hash_of(presets)));
+  mpi::require_same(ranks, "list of frames", options.frames.empty() ? "all" : options.frames);
+  mpi::require_same(ranks, "preset", fmt::format("{:016x}", hash_of(presets)));
 }
 
 /// Of a sweep each rank does the next run, alone, whenever it is free.
-void deal_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared,
-               const std::shared_ptr<team::Ranks>& ranks)
+void distribute_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared,
+               const std::shared_ptr<mpi::Ranks>& ranks)
 {
-  const Team team(ranks);
-  for (Target& target : targets) fit_white(options, target, interrupted, shared, team);
+  const Communicator communicator(ranks);
+  for (Target& target : targets) fit_white(options, target, interrupted, shared, communicator);
   require_same(options, targets.front().preset, interrupted, shared, *ranks);
   const fs::path folder = targets.front().folder.parent_path();
-  if (team.leads()) {
+  if (communicator.is_root()) {
     fs::create_directories(folder);
     write_order(targets);
   }
   require_shared(*ranks, folder / report::sweep_file);
-  ranks->deal(static_cast<std::int64_t>(targets.size()),
+  ranks->distribute(static_cast<std::int64_t>(targets.size()),
               [&](std::int64_t number) { run_one(options, targets[static_cast<std::size_t>(number)], interrupted, shared); });
 }
 
-void run_preset(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<team::Ranks>& ranks)
+void run_preset(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<mpi::Ranks>& ranks)
 {
   std::vector<Target> targets = targets_of(options);
   Shared shared;
   if (!ranks) return run_all(options, targets, interrupted, shared);
   shared.device_of_several = ranks->number_on_host();
   require_same_runs(options, targets, *ranks);
-  if (targets.size() > 1) return deal_runs(options, targets, interrupted, shared, ranks);
+  if (targets.size() > 1) return distribute_runs(options, targets, interrupted, shared, ranks);
   shared.ranks = ranks;
   run_one(options, targets.front(), interrupted, shared);
 }
 
 /// Where one rank fails all end. What is wrong with the command rank 0 says for all of them.
-void run_on_ranks(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<team::Ranks>& ranks)
+void run_on_ranks(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<mpi::Ranks>& ranks)
 {
   try {
     run_preset(options, interrupted, ranks);
-    ranks->wait_for_first(); // which may still write files
+    ranks->wait_for_root(); // which may still write files
   } catch (const Error& error) {
-    const bool leads = ranks->rank() == 0;
-    if (!leads) std::this_thread::sleep_for(std::chrono::seconds(1));
-    fmt::print(stderr, "nephroid: {}{}\n", leads || error.place() == Place(ranks->name()) ? "" : ranks->name() + ": ", error.line());
+    const bool is_root = ranks->rank() == 0;
+    if (!is_root) std::this_thread::sleep_for(std::chrono::seconds(1));
+    fmt::print(stderr, "nephroid: {}{}\n", is_root || error.place() == Place(ranks->name()) ? "" : ranks->name() + ": ", error.line());
     ranks->abort(error.exit_code());
   }
 }
@@ -223,7 +223,7 @@ void add_run(CLI::App& program, Session&)
   verb.work([options] {
     put_in_order(options->pictures_at);
     const Interrupts interrupts; // before OpenCL starts its threads
-    if (const std::shared_ptr<team::Ranks> ranks = team::open_ranks())
+    if (const std::shared_ptr<mpi::Ranks> ranks = mpi::open_ranks())
       run_on_ranks(*options, interrupts.token(), ranks);
     else
       run_preset(*options, interrupts.token(), nullptr);

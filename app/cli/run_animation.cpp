@@ -49,22 +49,22 @@ public:
     if (ranks_) require_same(options_, target_.preset, interrupted_, shared_, *ranks_);
     begin();
     if (ranks_)
-      deal_frames();
+      distribute_frames();
     else
       for (int frame = range_.first; frame <= range_.second; ++frame) render_one(frame);
-    if (leads()) end();
+    if (is_root()) end();
   }
 
 private:
-  bool leads() const { return !ranks_ || ranks_->rank() == 0; }
+  bool is_root() const { return !ranks_ || ranks_->rank() == 0; }
 
   /// Each rank renders the next one, alone, whenever it is free.
-  void deal_frames()
+  void distribute_frames()
   {
     require_shared(*ranks_, target_.folder / "preset.json");
-    ranks_->deal(range_.second - range_.first + 1, [&](std::int64_t number) { render_one(range_.first + static_cast<int>(number)); });
+    ranks_->distribute(range_.second - range_.first + 1, [&](std::int64_t number) { render_one(range_.first + static_cast<int>(number)); });
     std::int64_t rendered = rendered_;
-    ranks_->add({&rendered, 1});
+    ranks_->all_reduce_sum({&rendered, 1});
     rendered_ = static_cast<int>(rendered);
   }
 
@@ -75,7 +75,7 @@ private:
       shared_.prepared = run::prepare(target_.preset, shared_.prepared ? &*shared_.prepared : nullptr, {interrupted_, {}});
       require_memory(*shared_.prepared, device_of(options_, shared_), ranks_); // what cannot be leaves no folder
     });
-    if (!leads()) return;
+    if (!is_root()) return;
     claimed_.emplace(target_.folder, options_.frames.empty()); // others may render the other frames
     if (options_.resume || !options_.frames.empty()) {
       run::remove_frames(target_.folder, animation_.frames);
@@ -132,7 +132,7 @@ private:
   std::stop_token interrupted_;
   Shared& shared_;
   const preset::Animation& animation_;
-  std::shared_ptr<team::Ranks> ranks_; ///< null: this process alone renders all frames
+  std::shared_ptr<mpi::Ranks> ranks_; ///< null: this process alone renders all frames
   std::pair<int, int> range_;
   int rendered_ = 0;
   std::optional<run::ClaimedFolder> claimed_;

@@ -42,9 +42,9 @@ std::string where_time_went(const job::Snapshot& snapshot)
   return fmt::format("{:.1f} s of work{}", snapshot.progress.work_seconds, phases);
 }
 
-void require_same(team::Ranks& ranks, const run::Prepared& prepared, const compute::Context& context)
+void require_same(mpi::Ranks& ranks, const run::Prepared& prepared, const compute::Context& context)
 {
-  for (const auto& [what, mine] : run::what_bits_hang_on(prepared, context)) team::require_same(ranks, what, mine);
+  for (const auto& [what, mine] : run::what_bits_hang_on(prepared, context)) mpi::require_same(ranks, what, mine);
 }
 
 /// Renders one target on a device that is open for all of them.
@@ -60,27 +60,27 @@ public:
     const Watch watch{interrupted_, [this](const std::string& doing) {
                         if (progress_style(options_.json) == ProgressStyle::live) activity_.show(target_.label + "  " + doing);
                       }};
-    const Team team(shared.ranks);
-    const bool leads = team.leads();
+    const Communicator communicator(shared.ranks);
+    const bool is_root = communicator.is_root();
     shared.prepared = run::prepare(target_.preset, shared.prepared ? &*shared.prepared : nullptr, watch);
     activity_.clear();
     const run::Prepared& prepared = *shared.prepared;
     for (const std::string& note : prepared.plan->notes)
-      if (leads && (!is_frame() || shared.notes.insert(note).second)) fmt::print(stderr, "note: {}\n", note);
+      if (is_root && (!is_frame() || shared.notes.insert(note).second)) fmt::print(stderr, "note: {}\n", note);
     const compute::Context& context = device_of(options_, shared);
     if (shared.ranks) require_same(*shared.ranks, prepared, context);
     std::unique_ptr<job::Job> job = taken_on(shared);
     if (!job) require_memory(prepared, context, shared.ranks); // a run that cannot be leaves no folder
-    if (!leads) return follow(prepared, context, team);
+    if (!is_root) return follow(prepared, context, communicator);
     std::optional<compute::TellOfCompiling> telling(std::in_place, context, [watch] { watch.begin("compiling kernels"); });
     std::optional<compute::Together> together;
     const run::ClaimedFolder claimed(target_.folder);
     if (is_frame()) run::hide_frame(target_.animation, target_.preset.provenance.frame.value());
     reference_ = reference(prepared, context);
     if (!job) {
-      together.emplace(context, team);
+      together.emplace(context, communicator);
       job = run::make_job(prepared, context);
-      if (!team.is_alone()) job = job::led(std::move(job), team);
+      if (!communicator.is_alone()) job = job::led(std::move(job), communicator);
       job = measure::measured(std::move(job), prepared.preset, reference_, began_, options_.pictures_at);
       shared.of_job = target_.preset;
       shared.inputs_of_job = prepared.plan->inputs;
@@ -97,11 +97,11 @@ public:
 
 private:
   /// All that the other ranks do of a run.
-  static void follow(const run::Prepared& prepared, const compute::Context& context, const Team& team)
+  static void follow(const run::Prepared& prepared, const compute::Context& context, const Communicator& communicator)
   {
-    const compute::Together together(context, team);
+    const compute::Together together(context, communicator);
     const std::unique_ptr<job::Job> job = run::make_job(prepared, context);
-    job::follow(*job, team);
+    job::follow(*job, communicator);
   }
 
   bool is_frame() const { return !target_.animation.empty(); }
@@ -347,7 +347,7 @@ void report_result(const RunOptions& options, const Target& target, const job::P
              fmt::join(beyond, options.pictures_at.end(), ", "));
 }
 
-void require_memory(const run::Prepared& prepared, const compute::Context& context, const std::shared_ptr<team::Ranks>& ranks)
+void require_memory(const run::Prepared& prepared, const compute::Context& context, const std::shared_ptr<mpi::Ranks>& ranks)
 {
   if (!ranks) return run::require_memory(prepared, context);
   std::optional<Error> lack;
@@ -356,7 +356,7 @@ void require_memory(const run::Prepared& prepared, const compute::Context& conte
   } catch (const Error& error) {
     lack = error;
   }
-  team::require_all(*ranks, lack);
+  mpi::require_all(*ranks, lack);
 }
 
 const compute::Context& device_of(const RunOptions& options, Shared& shared)
@@ -371,20 +371,20 @@ const compute::Context& device_of(const RunOptions& options, Shared& shared)
 }
 
 void require_same(const RunOptions& options, const preset::Preset& preset, const std::stop_token& interrupted, Shared& shared,
-                  team::Ranks& ranks)
+                  mpi::Ranks& ranks)
 {
   shared.prepared = run::prepare(preset, shared.prepared ? &*shared.prepared : nullptr, {interrupted, {}});
   require_same(ranks, *shared.prepared, device_of(options, shared));
 }
 
-void require_shared(team::Ranks& ranks, const fs::path& file)
+void require_shared(mpi::Ranks& ranks, const fs::path& file)
 {
-  ranks.wait_for_first();
+  ranks.wait_for_root();
   std::optional<Error> error;
   if (!is_there(file))
     error = bad_input(ranks.name(), fmt::format("does not see {}, which rank 0 has written", file.string()),
                       "expected an output folder that all nodes share", "choose another one with -o");
-  team::require_all(ranks, error);
+  mpi::require_all(ranks, error);
 }
 
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared)

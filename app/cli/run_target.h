@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // One run of `nephroid run`: a preset of its own, one of a sweep, or a frame of an animation.
 #pragma once
-#include "base/team.h"
+#include "base/communicator.h"
 #include "compute/compute.h"
 #include "job/job.h"
 #include "preset/preset.h"
 #include "run/run.h"
-#include "team/team.h"
+#include "mpi/ranks.h"
 
 #include <set>
 #include <stop_token>
@@ -37,7 +37,7 @@ struct Target {
 
 /// What the runs of one command share.
 struct Shared {
-  std::shared_ptr<team::Ranks> ranks; ///< that compute the run together; null: this process alone does
+  std::shared_ptr<mpi::Ranks> ranks; ///< that compute the run together; null: this process alone does
   int device_of_several = 0;          ///< of the devices that --device may mean, the one with this number, counted around
   /// Of the frame before. Where it takes the next frame's preset on (job::Job::adopt) and its progress then is at 0, it is as a new job of
   /// that preset, bit for bit, and keeps what does not change, such as a bake. A job that goes on with what it has would give other bits
@@ -56,13 +56,13 @@ struct Shared {
 const compute::Context& device_of(const RunOptions& options, Shared& shared);
 
 /// Throws as run::require_memory. No rank goes on where one lacks it.
-void require_memory(const run::Prepared& prepared, const compute::Context& context, const std::shared_ptr<team::Ranks>& ranks);
+void require_memory(const run::Prepared& prepared, const compute::Context& context, const std::shared_ptr<mpi::Ranks>& ranks);
 
 /// Throws bad_input on the ranks that would compute other bits of this preset than rank 0. Leaves it prepared.
 void require_same(const RunOptions& options, const preset::Preset& preset, const std::stop_token& interrupted, Shared& shared,
-                  team::Ranks& ranks);
+                  mpi::Ranks& ranks);
 /// The same where a rank does not see a file that rank 0 has written before.
-void require_shared(team::Ranks& ranks, const std::filesystem::path& file);
+void require_shared(mpi::Ranks& ranks, const std::filesystem::path& file);
 
 /// Renders the target into its folder. Throws interrupted once its picture and a checkpoint are saved.
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared);

@@ -151,11 +151,11 @@ TellOfCompiling::~TellOfCompiling()
   context_.state->tell_of_compiling = [] {};
 }
 
-Together::Together(Context context, Team team) : context_(std::move(context)) { context_.state->team = std::move(team); }
+Together::Together(Context context, Communicator communicator) : context_(std::move(context)) { context_.state->communicator = std::move(communicator); }
 
-Together::~Together() { context_.state->team = {}; }
+Together::~Together() { context_.state->communicator = {}; }
 
-const Team& Context::team() const { return state->team; }
+const Communicator& Context::communicator() const { return state->communicator; }
 
 const DeviceInfo& Context::device() const { return state->info; }
 

@@ -81,10 +81,10 @@ void RawBuffer::read(void* to, std::size_t bytes, std::size_t offset_bytes) cons
   named(*state, [&] { state->context->queue.enqueueReadBuffer(state->buffer, CL_TRUE, offset_bytes, bytes, to); });
 }
 
-const Team& RawBuffer::team() const
+const Communicator& RawBuffer::communicator() const
 {
-  static const Team alone;
-  return state ? state->context->team : alone;
+  static const Communicator alone;
+  return state ? state->context->communicator : alone;
 }
 
 void RawBuffer::fill_zero()

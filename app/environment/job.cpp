@@ -34,7 +34,7 @@ public:
         sphere_white_(plan.render ? 0.2 : preset.white), stop_(preset.stop)
   {
     if (render_ && (stop_.passes || !stop_.seconds)) passes_ = stop_.passes.value_or(preset::default_passes);
-    if (context.team().told(!plan.bakes)) read();
+    if (context.communicator().broadcast(!plan.bakes)) read();
     if (!bake_) baker_.emplace(*task_, context_, wanted_directions());
     if (refines() || bake_) begin_rendering(plan.photons);
   }
@@ -360,26 +360,26 @@ private:
   }
   std::int64_t directions_done() const { return static_cast<std::int64_t>((bake_ ? *bake_ : baker_->bake()).baked.size()); }
 
-  /// Ranks of a team have rank 0's.
+  /// Ranks have rank 0's.
   void read()
   {
-    const Team& team = context_.team();
+    const Communicator& communicator = context_.communicator();
     try {
-      if (team.leads()) bake_ = read_bake(file_, identity_);
+      if (communicator.is_root()) bake_ = read_bake(file_, identity_);
     } catch (const Error& error) {
       warnings_.push_back(error.line() + "; it is baked again");
     }
-    from_file_ = team.told(bake_.has_value());
-    if (!from_file_ || team.is_alone()) return;
+    from_file_ = communicator.broadcast(bake_.has_value());
+    if (!from_file_ || communicator.is_alone()) return;
     if (!bake_) bake_ = task_->empty_bake();
-    bake_->baked = team.told(std::move(bake_->baked));
-    bake_->light = team.told(std::move(bake_->light));
-    bake_->ways = team.told(std::move(bake_->ways));
+    bake_->baked = communicator.broadcast(std::move(bake_->baked));
+    bake_->light = communicator.broadcast(std::move(bake_->light));
+    bake_->ways = communicator.broadcast(std::move(bake_->ways));
   }
 
   void keep()
   {
-    if (!context_.team().leads()) return;
+    if (!context_.communicator().is_root()) return;
     try {
       write_bake(file_, identity_, *bake_);
     } catch (const Error& error) {

@@ -54,7 +54,7 @@ public:
   void step() override
   {
     const Clock::time_point begin = Clock::now();
-    while (!finished() && context_.team().told(since(begin) < step_seconds)) advance();
+    while (!finished() && context_.communicator().broadcast(since(begin) < step_seconds)) advance();
     (judge_ ? judge_seconds_ : method_seconds_) += since(begin);
   }
 
@@ -156,7 +156,7 @@ private:
     if (!preset_.stop.seconds || method_->steps() == began_.steps) return false; // what is judged has had one step at least
     if (!judge_needs_)
       judge_needs_ = judge_seconds(context_, layout_, triangles_) * (settings(preset_).tolerances ? 1 + Tolerances::count : 1);
-    return context_.team().told(looked_for() + (method_->part() == 0 ? last_step_seconds() : 0) >= search_seconds());
+    return context_.communicator().broadcast(looked_for() + (method_->part() == 0 ? last_step_seconds() : 0) >= search_seconds());
   }
 
   bool had_all_steps() const { return most_steps() && method_->steps() - began_.steps >= *most_steps(); }

@@ -109,7 +109,7 @@ std::vector<shared::float4> parts_of(const Layout& l, int count)
 void write_sum(compute::Buffer<std::int64_t>& buffer, const std::vector<std::int64_t>& sum)
 {
   buffer.fill_zero();
-  if (buffer.team().leads()) buffer.write(sum);
+  if (buffer.communicator().is_root()) buffer.write(sum);
 }
 
 std::size_t channels(const Layout& l) { return l.coloured ? 3 : 1; }
@@ -194,10 +194,10 @@ std::uint64_t rays_of(const Layout& layout)
 void Judge::advance()
 {
   const int rays_a_row = layout_.facets.x * front_.along * front_.along;
-  const Team& team = context_.team();
-  const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_step / rays_a_row) * team.size());
+  const Communicator& communicator = context_.communicator();
+  const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_step / rays_a_row) * communicator.size());
   const auto turn = static_cast<std::uint32_t>(round_);
-  Shares(team, layout_.facets.y).of(row_, rows, [&](std::int64_t first_row, std::int64_t own) {
+  Partition(communicator, layout_.facets.y).for_own(row_, rows, [&](std::int64_t first_row, std::int64_t own) {
     judge_rows(static_cast<std::uint32_t>(first_row), static_cast<std::uint32_t>(own * rays_a_row), turn);
   });
   context_.finish();

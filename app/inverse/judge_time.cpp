@@ -39,7 +39,7 @@ double judge_seconds(const compute::Context& context, const Layout& layout, std:
     Judge judge(context, piece, solid, 0);
     seconds = seconds_from(begin) * static_cast<double>(triangles) / static_cast<double>(solid.mesh.triangles.size());
     begin = now();
-    while (!judge.finished() && context.team().told(seconds_from(begin) < trial_seconds)) judge.advance();
+    while (!judge.finished() && context.communicator().broadcast(seconds_from(begin) < trial_seconds)) judge.advance();
     seconds += seconds_from(begin) * static_cast<double>(rays_of(layout)) / (judge.part() * static_cast<double>(rays_of(piece)));
   }
   return reserve * seconds;

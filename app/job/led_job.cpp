@@ -39,13 +39,13 @@ private:
 
 class LedJob final : public Job {
 public:
-  LedJob(std::unique_ptr<Job> job, const Team& team) : job_(std::move(job)), team_(team) {}
+  LedJob(std::unique_ptr<Job> job, const Communicator& communicator) : job_(std::move(job)), communicator_(communicator) {}
   /// What failed ends all ranks anyway.
   ~LedJob() override
   {
     if (std::uncaught_exceptions() > 0 || thrown_) return;
     try {
-      team_.told(Call::end);
+      communicator_.broadcast(Call::end);
     } catch (const Error&) {
       // A rank died after its last work.
     }
@@ -62,11 +62,11 @@ public:
   {
     call(Call::snapshot);
     Snapshot snapshot = kept([&] { return job_->snapshot(); });
-    const Team::Talk talk = team_.talk();
-    snapshot.scalars.insert(snapshot.scalars.end(), {{"ranks", "count", static_cast<double>(team_.size())},
-                                                     {"ranks", "calls", static_cast<double>(talk.calls)},
-                                                     {"ranks", "bytes", static_cast<double>(talk.bytes)},
-                                                     {"ranks", "waiting_seconds", talk.seconds}});
+    const Communicator::Traffic traffic = communicator_.traffic();
+    snapshot.scalars.insert(snapshot.scalars.end(), {{"ranks", "count", static_cast<double>(communicator_.size())},
+                                                     {"ranks", "calls", static_cast<double>(traffic.calls)},
+                                                     {"ranks", "bytes", static_cast<double>(traffic.bytes)},
+                                                     {"ranks", "waiting_seconds", traffic.seconds}});
     return snapshot;
   }
   bool estimates_error() const override { return job_->estimates_error(); }
@@ -82,7 +82,7 @@ public:
     call(Call::load);
     std::vector<std::byte> bytes(from.left());
     from.read(bytes);
-    bytes = team_.told(std::move(bytes));
+    bytes = communicator_.broadcast(std::move(bytes));
     StoredBytes all(bytes, "checkpoint.bin");
     job_->load(all);
     if (all.left() > 0) throw bad_input("checkpoint.bin", "has more than the run's state");
@@ -92,7 +92,7 @@ private:
   void call(Call next)
   {
     if (thrown_) std::rethrow_exception(thrown_); // half way through a call: the ranks are no longer in step
-    team_.told(next);
+    communicator_.broadcast(next);
   }
   template <class Work>
   std::invoke_result_t<Work> kept(Work work)
@@ -106,18 +106,18 @@ private:
   }
 
   std::unique_ptr<Job> job_;
-  Team team_;
+  Communicator communicator_;
   std::exception_ptr thrown_; ///< by a call that whoever made it may survive
 };
 
 } // namespace
 
-std::unique_ptr<Job> led(std::unique_ptr<Job> job, const Team& team) { return std::make_unique<LedJob>(std::move(job), team); }
+std::unique_ptr<Job> led(std::unique_ptr<Job> job, const Communicator& communicator) { return std::make_unique<LedJob>(std::move(job), communicator); }
 
-void follow(Job& job, const Team& team)
+void follow(Job& job, const Communicator& communicator)
 {
   Nowhere nowhere;
-  while (true) switch (team.told(Call::end)) {
+  while (true) switch (communicator.broadcast(Call::end)) {
     case Call::step:
       job.step();
       break;
@@ -128,7 +128,7 @@ void follow(Job& job, const Team& team)
       job.save(nowhere);
       break;
     case Call::load: {
-      const std::vector<std::byte> bytes = team.told(std::vector<std::byte>());
+      const std::vector<std::byte> bytes = communicator.broadcast(std::vector<std::byte>());
       StoredBytes all(bytes, "checkpoint.bin");
       job.load(all);
       break;

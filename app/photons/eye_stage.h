@@ -53,7 +53,7 @@ public:
     std::vector<shared::uint2> samples;
     for (std::uint32_t block = 0; block < static_cast<std::uint32_t>(camera.width * camera.height); ++block)
       for (std::uint32_t half = 0; half < 2; ++half) samples.push_back({block, half});
-    world_.context.team().keep_own(samples);
+    world_.context.communicator().keep_own_share(samples);
     run(first_film_, camera, compute::Buffer(world_.context, "samples", samples), static_cast<std::uint32_t>(samples.size()));
     return true;
   }

@@ -87,7 +87,7 @@ public:
 
   bool step(std::int64_t pass) override
   {
-    return slices_.step(world_.context.team(), tables_.photons_per_pass, [&](const tracing::Slice& slice) {
+    return slices_.step(world_.context.communicator(), tables_.photons_per_pass, [&](const tracing::Slice& slice) {
       world_.send(kernel_, slice, pass,
                   {{"everything", everything_},
                    {"emitters", emitters_},

@@ -75,7 +75,7 @@ public:
     for (const RunPart* part : plan.parts)
       if (part->make) stages_.push_back({part->make(world_, scene, settings), part->layer});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
-    if (context.team().told(context.is_cold())) { // rank 0 may have rendered a reference before
+    if (context.communicator().broadcast(context.is_cold())) { // rank 0 may have rendered a reference before
       for (const TimedStage& s : stages_) s.stage->warm_up();
       world_.energy.fill_zero();
       world_.context.finish(); // a run that never comes to work must not end while kernels run

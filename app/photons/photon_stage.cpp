@@ -47,7 +47,7 @@ public:
     const std::int64_t round = pass * t.rounds + round_;
     if (round_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is one rank's to store
     if (by_variance_ && slices_.at_start() && round >= first_deal(t.rounds) && deal_.is_due(round)) deal(round);
-    const bool complete = slices_.step(world_.context.team(), t.photons_per_round, [&](const tracing::Slice& slice) {
+    const bool complete = slices_.step(world_.context.communicator(), t.photons_per_round, [&](const tracing::Slice& slice) {
       world_.send(kernel_, slice, round,
                   {{"targets", world_.buffers.targets},
                    {"emitters", world_.emitters},

@@ -93,7 +93,7 @@ void SampledPixels::take_next(std::int64_t pass, double amount)
       next_.push_back({static_cast<std::uint32_t>(pixel), 2 * counts_[pixel][half]++ + half});
   done_ = pixel < counts_.size() ? static_cast<std::int64_t>(pixel) : 0;
   next_count_ = next_.size();
-  world_.context.team().keep_own(next_);
+  world_.context.communicator().keep_own_share(next_);
   if (!next_.empty()) on_device_.write(next_);
 }
 

@@ -32,7 +32,7 @@ public:
   template <class Work>
   bool step(std::int64_t pass, const Work& work)
   {
-    take_next(pass, amount_.amount(world_.context.team()));
+    take_next(pass, amount_.amount(world_.context.communicator()));
     amount_.timed(static_cast<double>(next_count_), [&] {
       if (!next_.empty()) work(on_device_, static_cast<std::uint32_t>(next_.size()));
     });

@@ -14,7 +14,7 @@
 
 namespace nephroid::tracing {
 
-/// nephroid::State with the buffers of a device. Those of a team's ranks are one buffer there, whatever their number is.
+/// nephroid::State with the buffers of a device. Those of the ranks are one buffer there, whatever their number is.
 class State : public nephroid::State {
 public:
   using nephroid::State::State;
@@ -23,8 +23,8 @@ public:
   void buffer(compute::Buffer<std::int64_t>& buffer)
   {
     in_pieces(buffer, [&](std::size_t) {
-      if (is_read() && !buffer.team().leads()) std::ranges::fill(piece_, std::byte{0});
-      if (to_) buffer.team().add({reinterpret_cast<std::int64_t*>(piece_.data()), piece_.size() / sizeof(std::int64_t)});
+      if (is_read() && !buffer.communicator().is_root()) std::ranges::fill(piece_, std::byte{0});
+      if (to_) buffer.communicator().all_reduce_sum({reinterpret_cast<std::int64_t*>(piece_.data()), piece_.size() / sizeof(std::int64_t)});
     });
   }
   /// What one of the ranks has written each item of, and the others have 0 (Buffer::read_joined): what was loaded all of them have.
@@ -32,16 +32,16 @@ public:
   void joined(compute::Buffer<T>& buffer)
   {
     in_pieces(buffer, [&](std::size_t) {
-      if (to_) buffer.team().join(piece_);
+      if (to_) buffer.communicator().all_reduce_or(piece_);
     });
   }
-  /// Several values of each item of `shares` (Shares::clear_others); others' than a rank's own are of no account.
+  /// Several values of each item of `partition` (Partition::clear_others); others' than a rank's own are of no account.
   template <class T>
-  void owned(compute::Buffer<T>& buffer, const Shares& shares, std::size_t values_an_item)
+  void owned(compute::Buffer<T>& buffer, const Partition& partition, std::size_t values_an_item)
   {
-    if (to_ && !buffer.team().is_alone()) {
+    if (to_ && !buffer.communicator().is_alone()) {
       std::vector<T> items = buffer.read();
-      shares.clear_others(std::span(items), values_an_item);
+      partition.clear_others(std::span(items), values_an_item);
       buffer.write(items);
     }
     joined(buffer);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pixels, rows or photons of a pass in steps of about 30 ms.
 #pragma once
-#include "base/team.h"
+#include "base/communicator.h"
 #include "tracing/state.h"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace nephroid::tracing {
 class StepSize {
 public:
   explicit StepSize(double start) : amount_(start) {}
-  /// As rank 0 of the team has learned it.
-  double amount(const Team& team) { return amount_ = team.told(amount_); }
+  /// As rank 0 has learned it.
+  double amount(const Communicator& communicator) { return amount_ = communicator.broadcast(amount_); }
   /// Calls work(), which does `amount` of it, and learns from the time it took: a little at a time, because the first step of a kernel also
   /// compiles it, and the rows of a picture differ.
   template <class Work>
@@ -45,14 +45,14 @@ public:
   std::int64_t done() const { return done_; }
 
   /// Calls work(first, count) for the next pixels (or rows) of the pass in hand, which has `size`; at most `most` at a time, and of these
-  /// for what is this rank's of the team (Shares). True when the pass is complete.
+  /// for what is this rank's (Partition). True when the pass is complete.
   template <class Work>
-  bool step(const Team& team, std::int64_t size, std::int64_t most, const Work& work)
+  bool step(const Communicator& communicator, std::int64_t size, std::int64_t most, const Work& work)
   {
     size_ = size;
-    const auto count = std::clamp<std::int64_t>(std::llround(amount_.amount(team)), 1, std::min(most, size - done_));
+    const auto count = std::clamp<std::int64_t>(std::llround(amount_.amount(communicator)), 1, std::min(most, size - done_));
     amount_.timed(static_cast<double>(count), [&] {
-      Shares(team, size).of(done_, count, [&](std::int64_t first, std::int64_t own) {
+      Partition(communicator, size).for_own(done_, count, [&](std::int64_t first, std::int64_t own) {
         work(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own));
       });
     });
@@ -90,14 +90,14 @@ public:
   /// Whether the next step is the first of a pass.
   bool at_start() const { return at_.slice == 0; }
 
-  /// Calls work(slice) for the next of `photons` photons, of which each rank of the team has some. True when the pass is complete.
+  /// Calls work(slice) for the next of `photons` photons, of which each rank has some. True when the pass is complete.
   template <class Work>
-  bool step(const Team& team, std::uint32_t photons, const Work& work)
+  bool step(const Communicator& communicator, std::uint32_t photons, const Work& work)
   {
-    const double amount = photons_a_step_.amount(team);
+    const double amount = photons_a_step_.amount(communicator);
     if (at_start()) at_.slices = static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons / amount), 1, photons));
     const std::uint32_t count = (photons - at_.slice + at_.slices - 1) / at_.slices;
-    const auto rank = static_cast<std::uint32_t>(team.rank()), ranks = static_cast<std::uint32_t>(team.size());
+    const auto rank = static_cast<std::uint32_t>(communicator.rank()), ranks = static_cast<std::uint32_t>(communicator.size());
     photons_a_step_.timed(count, [&] {
       if (rank < count) work(Slice{at_.slice + rank * at_.slices, ranks * at_.slices, (count - rank + ranks - 1) / ranks});
     });

@@ -83,15 +83,15 @@ Baker::Baker(const BakeTask& task, const compute::Context& context, std::size_t 
 
 std::size_t Baker::at_once() const
 {
-  return std::min(static_cast<std::size_t>(world_.context.team().size()), wanted_ - bake_.baked.size());
+  return std::min(static_cast<std::size_t>(world_.context.communicator().size()), wanted_ - bake_.baked.size());
 }
 
 void Baker::step()
 {
-  const Team& team = world_.context.team();
+  const Communicator& communicator = world_.context.communicator();
   const auto count = static_cast<std::uint32_t>(
-      std::clamp<std::int64_t>(std::llround(photons_a_step_.amount(team)), 1, std::int64_t{task_.photons} - sent_));
-  const auto rank = static_cast<std::size_t>(team.rank()), number = bake_.baked.size() + rank;
+      std::clamp<std::int64_t>(std::llround(photons_a_step_.amount(communicator)), 1, std::int64_t{task_.photons} - sent_));
+  const auto rank = static_cast<std::size_t>(communicator.rank()), number = bake_.baked.size() + rank;
   // The light of the tables has power_unit W/m^2 as its unit.
   const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);
   photons_a_step_.timed(count, [&] {
@@ -151,15 +151,15 @@ BakedDirection Baker::finish_direction(std::size_t direction)
 
 void Baker::finish_directions()
 {
-  const Team& team = world_.context.team();
-  const std::size_t before = bake_.baked.size(), after = before + at_once(), own = before + static_cast<std::size_t>(team.rank());
+  const Communicator& communicator = world_.context.communicator();
+  const std::size_t before = bake_.baked.size(), after = before + at_once(), own = before + static_cast<std::size_t>(communicator.rank());
   bake_.light.resize(after * bake_.direction_items());
   bake_.ways.resize(after * bake_.direction_texels());
   bake_.baked.resize(after);
   if (own < after) bake_.baked[own] = finish_direction(own);
   const auto join = [&](auto& items) { // all ranks get all directions
     const std::size_t each = items.size() / after;
-    team.join(std::as_writable_bytes(std::span(items).subspan(before * each)));
+    communicator.all_reduce_or(std::as_writable_bytes(std::span(items).subspan(before * each)));
   };
   join(bake_.light);
   join(bake_.ways);
@@ -179,8 +179,8 @@ void Baker::clear()
 
 void Baker::state(tracing::State& state)
 {
-  // What ranks of a team have in hand is done again: any number of them may go on.
-  const bool is_alone = world_.context.team().is_alone();
+  // What ranks have in hand is done again: any number of them may go on.
+  const bool is_alone = world_.context.communicator().is_alone();
   std::uint64_t baked = bake_.baked.size();
   std::uint32_t sent = is_alone ? sent_ : 0;
   state.value(sent);

@@ -52,7 +52,7 @@ public:
   /// task outlives it. wanted: directions that it will be asked for. Throws failed where the device has not enough memory.
   Baker(const BakeTask& task, const compute::Context& context, std::size_t wanted = ~std::size_t{0});
 
-  /// Photons of the direction in hand; with its last ones the direction is added to the bake. In a team of a direction for each rank.
+  /// Photons of the direction in hand; with its last ones the direction is added to the bake. With several ranks, of a direction for each rank.
   void step();
   bool finished() const { return bake_.baked.size() == task_.directions.size(); }
   /// Of the direction in hand, 0..1.
@@ -68,7 +68,7 @@ public:
   void state(tracing::State& state);
 
 private:
-  /// Directions in hand: each rank of the team has one.
+  /// Directions in hand: each rank has one.
   std::size_t at_once() const;
   void finish_directions();
   BakedDirection finish_direction(std::size_t direction);

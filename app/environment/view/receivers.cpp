@@ -80,26 +80,26 @@ void Receivers::find_all(std::optional<Surroundings>& surroundings, const glm::d
 bool Receivers::cast(const std::function<void(const CastTexels&)>& light)
 {
   if (lit_ == known_) return true;
-  const Team& team = context_.team();
-  const auto count = std::clamp<std::int64_t>(std::llround(texels_a_step_.amount(team)), 1, static_cast<std::int64_t>(known_ - lit_));
-  const Shares shares(team, static_cast<std::int64_t>(known_ - shared_));
+  const Communicator& communicator = context_.communicator();
+  const auto count = std::clamp<std::int64_t>(std::llround(texels_a_step_.amount(communicator)), 1, static_cast<std::int64_t>(known_ - lit_));
+  const Partition partition(communicator, static_cast<std::int64_t>(known_ - shared_));
   texels_a_step_.timed(static_cast<double>(count), [&] {
-    shares.of(static_cast<std::int64_t>(lit_ - shared_), count, [&](std::int64_t first, std::int64_t own) {
+    partition.for_own(static_cast<std::int64_t>(lit_ - shared_), count, [&](std::int64_t first, std::int64_t own) {
       light({&list_, static_cast<std::uint32_t>(shared_) + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own), &distances_,
              &normals_, &caustics_, size_});
     });
   });
   lit_ += static_cast<std::size_t>(count);
   if (lit_ < known_) return false;
-  for (compute::Buffer<float>* values : {&caustics_, &parts_seen_}) share(shares, *values);
+  for (compute::Buffer<float>* values : {&caustics_, &parts_seen_}) share(partition, *values);
   shared_ = known_;
   return true;
 }
 
-/// Lets all ranks of the team have what each has worked out of the list's newest.
-void Receivers::share(const Shares& shares, compute::Buffer<float>& values) const
+/// Lets all ranks have what each has worked out of the list's newest.
+void Receivers::share(const Partition& partition, compute::Buffer<float>& values) const
 {
-  if (context_.team().is_alone()) return;
+  if (context_.communicator().is_alone()) return;
   std::vector<float> all = values.read(), newest;
   const auto each = [&](const auto& use) {
     for (std::size_t i = shared_; i < known_; ++i)
@@ -107,8 +107,8 @@ void Receivers::share(const Shares& shares, compute::Buffer<float>& values) cons
   };
   newest.resize(3 * (known_ - shared_));
   each([&](std::size_t to, std::size_t from) { newest[to] = all[from]; });
-  shares.clear_others(std::span(newest), 3);
-  context_.team().join(std::as_writable_bytes(std::span(newest)));
+  partition.clear_others(std::span(newest), 3);
+  context_.communicator().all_reduce_or(std::as_writable_bytes(std::span(newest)));
   each([&](std::size_t from, std::size_t to) { all[to] = newest[from]; });
   values.write(all);
 }

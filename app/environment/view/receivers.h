@@ -46,7 +46,7 @@ public:
   void forget();
 
 private:
-  void share(const Shares& shares, compute::Buffer<float>& values) const;
+  void share(const Partition& partition, compute::Buffer<float>& values) const;
 
   compute::Context context_;
   int size_;
@@ -56,7 +56,7 @@ private:
   compute::Buffer<std::uint32_t> list_;
   std::vector<int> states_read_;
   std::vector<std::uint32_t> list_on_host_;
-  std::size_t known_ = 0, lit_ = 0, shared_ = 0; ///< of the list; shared: lit, and known to all ranks of the team
+  std::size_t known_ = 0, lit_ = 0, shared_ = 0; ///< of the list; shared: lit, and known to all ranks
   tracing::StepSize texels_a_step_{4096};
 };
 

@@ -168,7 +168,7 @@ void Renderer::step()
 {
   switch (stage_) {
   case Stage::see:
-    if (!see_steps_.step(context_.team(), pixels(), pixels(),
+    if (!see_steps_.step(context_.communicator(), pixels(), pixels(),
                          [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); }))
       return;
     fine_.find_wanted(surroundings_, task_.placement.middle);
@@ -178,7 +178,7 @@ void Renderer::step()
     if (cast(fine_)) stage_ = Stage::shade;
     return;
   case Stage::shade:
-    if (!shade_steps_.step(context_.team(), pixels(), pixels(),
+    if (!shade_steps_.step(context_.communicator(), pixels(), pixels(),
                            [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); }))
       return;
     shaded_ = true;
@@ -192,7 +192,7 @@ void Renderer::step()
     stage_ = Stage::volume;
     return;
   case Stage::volume:
-    if (volume_steps_.step(context_.team(), pixels(), pixels(),
+    if (volume_steps_.step(context_.communicator(), pixels(), pixels(),
                            [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); }))
       end_pass();
   }
@@ -288,14 +288,14 @@ void Renderer::scatter(int block, std::uint32_t first, std::uint32_t count)
 std::vector<Renderer::Layer> Renderer::layers() const
 {
   const std::size_t values = 3 * static_cast<std::size_t>(pixels());
-  const Team& team = context_.team();
+  const Communicator& communicator = context_.communicator();
   const auto layer = [&](const char* name, const std::array<compute::Buffer<float>, 2>& sums, std::size_t first, std::size_t ahead) {
     std::array<std::vector<float>, 2> halves{std::vector<float>(values), std::vector<float>(values)};
     for (const std::size_t h : {0, 1})
       if (pass_ > 0 || h == 0) {
         sums[h].RawBuffer::read(halves[h].data(), values * sizeof(float), first * sizeof(float));
         own_pixels().clear_others(std::span(halves[h]), 3);
-        team.join(std::as_writable_bytes(std::span(halves[h])));
+        communicator.all_reduce_or(std::as_writable_bytes(std::span(halves[h])));
       }
     Layer result{name, std::vector<float>(values), std::vector<float>(pass_ >= 2 ? values : 0)};
     for_ranges(values, 1 << 14, [&](std::size_t, const Range& range) {

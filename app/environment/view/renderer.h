@@ -87,7 +87,7 @@ private:
   bool scatters() const { return task_.has_medium && caustics_; }
   std::size_t half() const { return static_cast<std::size_t>(pass_ % 2); } ///< of the pass in hand
   std::int64_t pixels() const { return std::int64_t{task_.tables.camera.width} * task_.tables.camera.height; }
-  Shares own_pixels() const { return {context_.team(), pixels()}; }
+  Partition own_pixels() const { return {context_.communicator(), pixels()}; }
 
   RenderTask task_;
   double white_, rotate_deg_;

@@ -51,13 +51,13 @@ std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& ta
   return wanted;
 }
 
-/// Puts the first `own` items of each rank of the team at their place among `count`: those of this one begin at `begin`.
+/// Puts the first `own` items of each rank at their place among `count`: those of this one begin at `begin`.
 template <class T>
 void share(compute::Buffer<T>& items, std::size_t begin, std::size_t own, std::size_t count)
 {
   std::vector<T> all(count);
   items.RawBuffer::read(all.data() + begin, own * sizeof(T), 0);
-  items.team().join(std::as_writable_bytes(std::span(all)));
+  items.communicator().all_reduce_or(std::as_writable_bytes(std::span(all)));
   items.write(all);
 }
 
@@ -237,11 +237,11 @@ void DeviceFacets::begin_sweep(const std::vector<std::uint32_t>& order, std::int
   turn_ = all_turns; // the next one begins anew
 }
 
-/// Each rank of the team looks for some of the facets. Then all know of all.
+/// Each rank looks for some of the facets. Then all know of all.
 void DeviceFacets::find_better(std::size_t first, std::size_t count, double smoothing)
 {
-  const Team& team = context_.team();
-  const std::size_t ranks = static_cast<std::size_t>(team.size()), rank = static_cast<std::size_t>(team.rank());
+  const Communicator& communicator = context_.communicator();
+  const std::size_t ranks = static_cast<std::size_t>(communicator.size()), rank = static_cast<std::size_t>(communicator.rank());
   const std::size_t begin = count * rank / ranks, own = count * (rank + 1) / ranks - begin;
   const auto first_facet = static_cast<std::uint32_t>(first + begin), facets = static_cast<std::uint32_t>(own);
   const auto weight = static_cast<float>(smoothing);
@@ -252,7 +252,7 @@ void DeviceFacets::find_better(std::size_t first, std::size_t count, double smoo
     propose_.run(own, group, shared, {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}, {"candidates", candidates_}});
     look_.run(own, group, shared, {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
   }
-  if (team.is_alone()) return;
+  if (communicator.is_alone()) return;
   share(found_, begin, own, count);
   share(done_, begin, own, count);
 }
@@ -281,10 +281,10 @@ void DeviceFacets::look(std::size_t first, std::size_t count, double smoothing)
 
 std::vector<glm::dvec2> DeviceFacets::gradient()
 {
-  const Team& team = context_.team();
+  const Communicator& communicator = context_.communicator();
   const auto facets = static_cast<std::int64_t>(facets_);
-  if (!team.is_alone()) gradient_.fill_zero();
-  Shares(team, facets).of(0, facets, [&](std::int64_t begin, std::int64_t own) {
+  if (!communicator.is_alone()) gradient_.fill_zero();
+  Partition(communicator, facets).for_own(0, facets, [&](std::int64_t begin, std::int64_t own) {
     const auto first = static_cast<std::uint32_t>(begin), count = static_cast<std::uint32_t>(own);
     find_gradient_.run(count, group,
                        {{"layout", layout_},

@@ -34,7 +34,7 @@ public:
   bool step(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather)
   {
     if (size_ == 0) return true;
-    return steps_.step(world_.context.team(), size_, static_cast<std::int64_t>(points_.size()),
+    return steps_.step(world_.context.communicator(), size_, static_cast<std::int64_t>(points_.size()),
                        [&](std::uint32_t done, std::uint32_t count) {
                          const std::uint32_t first = begin_ + done;
                          for (std::uint32_t path = 0; path < paths.count; ++path) {

@@ -59,7 +59,7 @@ public:
     if (first.rounds == 0) return true;
     map_.build(radius, first.rounds * world_.tables.photons_per_round);
     for (std::uint32_t path = 0; path < 2 * first_paths; ++path) {
-      Shares(world_.context.team(), count).of(0, count, [&](std::int64_t begin, std::int64_t own) {
+      Partition(world_.context.communicator(), count).for_own(0, count, [&](std::int64_t begin, std::int64_t own) {
         const auto from = static_cast<std::uint32_t>(begin), blocks = static_cast<std::uint32_t>(own);
         eye_.look(camera, world_.seed, 0, {first_paths, path, path}, -1, first.glass, from, blocks);
         gather(first_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, first.rounds, first.glass, from,

@@ -79,7 +79,7 @@ std::uint64_t PhotonMap::bytes(std::uint32_t slots)
 void PhotonMap::build(double cell_edge, std::uint32_t slots)
 {
   grid_.inverse_cell = static_cast<float>(1 / cell_edge);
-  if (!stored_.team().is_alone()) stored_.write(stored_.read_joined());
+  if (!stored_.communicator().is_alone()) stored_.write(stored_.read_joined());
   starts_.fill_zero();
   count_.run(std::max(slots, 1u), 64, {{"stored", stored_}, {"counts", starts_}, {"grid", grid_}, {"slots", slots}});
   sum_.run(scan_blocks, 16, {{"counts", starts_}, {"sums", block_sums_}, {"grid", grid_}});

@@ -113,9 +113,9 @@ public:
                          {"per_iteration_after", per_iteration(before)}});
     }
     std::vector<float> xyz = sums.read();
-    const Team& team = world_.context.team();
+    const Communicator& communicator = world_.context.communicator();
     own_pixels().clear_others(std::span(xyz), 3);
-    team.join(std::as_writable_bytes(std::span(xyz)));
+    communicator.all_reduce_or(std::as_writable_bytes(std::span(xyz)));
     std::vector<float>& caustic = tracing::layer_of(picture, "caustic").rgb;
     for (std::size_t i = 0; i < xyz.size(); i += 3) {
       const optics::Colour rgb = optics::xyz_to_linear_srgb({xyz[i] / world_.white, xyz[i + 1] / world_.white, xyz[i + 2] / world_.white});
@@ -161,7 +161,7 @@ private:
 
   int cluster_count() const { return world_.tables.scene.cluster_count; }
   std::uint32_t pixel_count() const { return static_cast<std::uint32_t>(world_.tables.camera.width * world_.tables.camera.height); }
-  Shares own_pixels() const { return {world_.context.team(), pixel_count()}; }
+  Partition own_pixels() const { return {world_.context.communicator(), pixel_count()}; }
   ClusterRun& run_of(int cluster) { return runs_[random_ ? 0 : static_cast<std::size_t>(cluster)]; }
 
   /// Iterations of a cluster's run in `passes` passes.
@@ -264,7 +264,7 @@ private:
   bool send(std::int64_t pass)
   {
     if (slices_.at_start()) map_.stored().fill_zero(); // each photon is one rank's to store
-    return slices_.step(world_.context.team(), photons_, [&](const tracing::Slice& slice) { send_photons(pass, slice); });
+    return slices_.step(world_.context.communicator(), photons_, [&](const tracing::Slice& slice) { send_photons(pass, slice); });
   }
 
   bool gather(std::int64_t pass)

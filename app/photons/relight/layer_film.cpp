@@ -204,8 +204,8 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
     weights_.write(numbers);
   else
     weights_ = compute::Buffer<float>(context_, "weights of layers", numbers);
-  const Team& team = context_.team();
-  if (!team.is_alone()) sums_.write(sums_.read_sum());
+  const Communicator& communicator = context_.communicator();
+  if (!communicator.is_alone()) sums_.write(sums_.read_sum());
   weigh_.run(cell_count_ / 8, 64,
              {{"sums", sums_},
               {"block_count", static_cast<int>(cell_count_ / LAYER_BLOCK)},
@@ -216,7 +216,7 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
   gather_.run(
       pixels_, 64,
       {{"first", first_}, {"cells", cells_}, {"weighed", weighed_}, {"pixel_count", static_cast<int>(pixels_)}, {"pictures", pictures_}});
-  if (!team.leads()) sums_.fill_zero(); // rank 0 has them
+  if (!communicator.is_root()) sums_.fill_zero(); // rank 0 has them
   const std::size_t bytes = 3 * pixels_ * sizeof(float);
   pictures_.RawBuffer::read(pictures[0].data(), bytes, 0);
   pictures_.RawBuffer::read(pictures[1].data(), bytes, bytes);

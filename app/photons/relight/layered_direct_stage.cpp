@@ -32,7 +32,7 @@ public:
   {
     if (std::exchange(chosen_for_, relighting_.changes) != relighting_.changes)
       cluster_cdf_.write(layer_cluster_cdf(relighting_.light, world_.tables.wavelengths));
-    return rows_.step(world_.context.team(), world_.tables.camera.height, world_.tables.camera.height,
+    return rows_.step(world_.context.communicator(), world_.tables.camera.height, world_.tables.camera.height,
                       [&](std::uint32_t first_row, std::uint32_t rows) {
                         const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
                         world_.run(kernel_, pixels, 64,

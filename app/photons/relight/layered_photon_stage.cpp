@@ -32,7 +32,7 @@ public:
   {
     take_light(pass);
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
-    const bool complete = slices_.step(world_.context.team(), world_.tables.photons_per_round, [&](const tracing::Slice& slice) {
+    const bool complete = slices_.step(world_.context.communicator(), world_.tables.photons_per_round, [&](const tracing::Slice& slice) {
       world_.send(kernel_, slice, pass,
                   {{"targets", world_.buffers.targets},
                    {"emitters", world_.emitters},

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file that knows MPI: a module that team.cpp loads.
+// The only file that knows MPI: a module that ranks.cpp loads.
 //
 // Nobody waits for others' work inside of MPI: its waits spin on a core, which a rank beside it could use, and never end where a rank has
 // died. So such a call is begun, asked after at times, and in between it is seen whether the others are still there.
 #include "base/error.h"
 #include "base/files.h"
-#include "team/team.h"
+#include "mpi/ranks.h"
 
 #include <mpi.h>
 
@@ -21,7 +21,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace nephroid::team {
+namespace nephroid::mpi {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -51,7 +51,7 @@ std::size_t own_boot()
 /// How long the other ranks may take to save a run or frame that was interrupted, before this one ends all.
 constexpr std::chrono::seconds others_save{5};
 
-constexpr int no_more = -1; ///< in place of a number that is dealt
+constexpr int no_more = -1; ///< in place of a number: nothing is left
 constexpr int ask = 1, answer = 2;
 
 class MpiRanks final : public Ranks {
@@ -59,7 +59,7 @@ public:
   MpiRanks()
   {
     int given = 0;
-    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given); // deal() talks on a thread of its own
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given); // distribute() talks on a thread of its own
     if (given < MPI_THREAD_SERIALIZED) throw failed("MPI", "its threads cannot take turns", {}, "use a build of Open MPI with threads");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
@@ -86,31 +86,31 @@ public:
     return static_cast<int>(std::count_if(ranks_.begin(), ranks_.begin() + rank_, [&](const Rank& other) { return is_on_host(other); }));
   }
 
-  void add(std::span<std::int64_t> numbers) override
+  void all_reduce_sum(std::span<std::int64_t> numbers) override
   {
     in_pieces(numbers, [](std::int64_t* piece, int count, MPI_Request* request) {
       return MPI_Iallreduce(MPI_IN_PLACE, piece, count, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD, request);
     });
   }
-  void join(std::span<std::byte> bytes) override
+  void all_reduce_or(std::span<std::byte> bytes) override
   {
     in_pieces(bytes, [](std::byte* piece, int count, MPI_Request* request) {
       return MPI_Iallreduce(MPI_IN_PLACE, piece, count, MPI_BYTE, MPI_BOR, MPI_COMM_WORLD, request);
     });
   }
-  void tell(std::span<std::byte> bytes) override
+  void broadcast(std::span<std::byte> bytes) override
   {
     in_pieces(bytes, [](std::byte* piece, int count, MPI_Request* request) {
       return MPI_Ibcast(piece, count, MPI_BYTE, 0, MPI_COMM_WORLD, request);
     });
   }
 
-  Team::Talk talk() const override { return talk_; }
+  Communicator::Traffic traffic() const override { return traffic_; }
 
-  void deal(std::int64_t count, const std::function<void(std::int64_t)>& work) override
+  void distribute(std::int64_t count, const std::function<void(std::int64_t)>& work) override
   {
     try {
-      rank_ == 0 ? deal_out(count, work) : take_dealt(work);
+      rank_ == 0 ? distribute_as_root(count, work) : work_for_root(work);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::interrupted) std::this_thread::sleep_for(others_save);
       throw;
@@ -131,8 +131,8 @@ private:
   }
   std::string name_of(int rank) const { return fmt::format("rank {} on {}", rank, ranks_[static_cast<std::size_t>(rank)].host); }
 
-  /// Rank 0 deals beside its own work.
-  void deal_out(std::int64_t count, const std::function<void(std::int64_t)>& work)
+  /// Rank 0 hands out numbers beside its own work.
+  void distribute_as_root(std::int64_t count, const std::function<void(std::int64_t)>& work)
   {
     std::atomic<std::int64_t> next = 0;
     std::atomic<bool> has_failed = false;
@@ -167,7 +167,7 @@ private:
     if (thrown) std::rethrow_exception(thrown);
   }
 
-  void take_dealt(const std::function<void(std::int64_t)>& work)
+  void work_for_root(const std::function<void(std::int64_t)>& work)
   {
     while (true) {
       std::int64_t number = no_more;
@@ -185,14 +185,14 @@ private:
   void in_pieces(std::span<T> items, const Begin& begin)
   {
     constexpr std::size_t most = 1 << 26;
-    talk_.bytes += items.size_bytes();
+    traffic_.bytes += items.size_bytes();
     for (std::size_t at = 0; at < items.size(); at += most) {
       MPI_Request request = MPI_REQUEST_NULL;
       const Clock::time_point began = Clock::now();
       begin(items.data() + at, static_cast<int>(std::min(most, items.size() - at)), &request);
       wait(request);
-      talk_.seconds += std::chrono::duration<double>(Clock::now() - began).count();
-      ++talk_.calls;
+      traffic_.seconds += std::chrono::duration<double>(Clock::now() - began).count();
+      ++traffic_.calls;
     }
   }
 
@@ -235,10 +235,10 @@ private:
 
   int rank_ = 0, size_ = 1;
   std::vector<Rank> ranks_;
-  Team::Talk talk_;
+  Communicator::Traffic traffic_;
 };
 
 } // namespace
-} // namespace nephroid::team
+} // namespace nephroid::mpi
 
-extern "C" __attribute__((visibility("default"))) nephroid::team::Ranks* nephroid_open_ranks() { return new nephroid::team::MpiRanks; }
+extern "C" __attribute__((visibility("default"))) nephroid::mpi::Ranks* nephroid_open_ranks() { return new nephroid::mpi::MpiRanks; }

@@ -15,66 +15,66 @@
 
 namespace nephroid {
 
-class Team {
+class Communicator {
 public:
   /// What went to and fro, and how long this rank has waited for the others and the network.
-  struct Talk {
+  struct Traffic {
     std::uint64_t calls = 0, bytes = 0;
     double seconds = 0;
   };
 
   /// How ranks talk. A call returns once every rank has made it, and throws failed, naming the rank, where one does not answer any more.
-  class Ties {
+  class Transport {
   public:
-    virtual ~Ties() = default;
+    virtual ~Transport() = default;
     virtual int rank() const = 0;
     virtual int size() const = 0;
     /// Each becomes the sum of all ranks', modulo 2^64.
-    virtual void add(std::span<std::int64_t> numbers) = 0;
+    virtual void all_reduce_sum(std::span<std::int64_t> numbers) = 0;
     /// Each becomes the bitwise or of all ranks'.
-    virtual void join(std::span<std::byte> bytes) = 0;
+    virtual void all_reduce_or(std::span<std::byte> bytes) = 0;
     /// Each becomes that of rank 0.
-    virtual void tell(std::span<std::byte> bytes) = 0;
+    virtual void broadcast(std::span<std::byte> bytes) = 0;
     /// Of all calls so far.
-    virtual Talk talk() const { return {}; }
+    virtual Traffic traffic() const { return {}; }
   };
 
-  Team() = default; ///< alone
-  explicit Team(std::shared_ptr<Ties> ties) : ties_(std::move(ties)) {}
+  Communicator() = default; ///< alone
+  explicit Communicator(std::shared_ptr<Transport> transport) : transport_(std::move(transport)) {}
 
-  Talk talk() const { return ties_ ? ties_->talk() : Talk(); }
-  int rank() const { return ties_ ? ties_->rank() : 0; }
-  int size() const { return ties_ ? ties_->size() : 1; }
+  Traffic traffic() const { return transport_ ? transport_->traffic() : Traffic(); }
+  int rank() const { return transport_ ? transport_->rank() : 0; }
+  int size() const { return transport_ ? transport_->size() : 1; }
   bool is_alone() const { return size() == 1; }
-  bool leads() const { return rank() == 0; }
+  bool is_root() const { return rank() == 0; }
 
-  void add(std::span<std::int64_t> numbers) const
+  void all_reduce_sum(std::span<std::int64_t> numbers) const
   {
-    if (!is_alone()) ties_->add(numbers);
+    if (!is_alone()) transport_->all_reduce_sum(numbers);
   }
-  void join(std::span<std::byte> bytes) const
+  void all_reduce_or(std::span<std::byte> bytes) const
   {
-    if (!is_alone()) ties_->join(bytes);
+    if (!is_alone()) transport_->all_reduce_or(bytes);
   }
   /// Rank 0's: what hangs on time is decided by one of them.
   template <class T>
-  T told(T value) const
+  T broadcast(T value) const
   {
     static_assert(std::is_trivially_copyable_v<T>);
-    if (!is_alone()) ties_->tell(std::as_writable_bytes(std::span(&value, 1)));
+    if (!is_alone()) transport_->broadcast(std::as_writable_bytes(std::span(&value, 1)));
     return value;
   }
   template <class T>
-  std::vector<T> told(std::vector<T> items) const
+  std::vector<T> broadcast(std::vector<T> items) const
   {
-    items.resize(told(items.size()));
-    if (!is_alone()) ties_->tell(std::as_writable_bytes(std::span(items)));
+    items.resize(broadcast(items.size()));
+    if (!is_alone()) transport_->broadcast(std::as_writable_bytes(std::span(items)));
     return items;
   }
 
   /// Every size()-th of the items is this rank's.
   template <class T>
-  void keep_own(std::vector<T>& items) const
+  void keep_own_share(std::vector<T>& items) const
   {
     if (is_alone()) return;
     std::size_t kept = 0;
@@ -83,18 +83,18 @@ public:
   }
 
 private:
-  std::shared_ptr<Ties> ties_;
+  std::shared_ptr<Transport> transport_;
 };
 
-/// Which of `size` items a rank of the team works on, and it alone: every size()-th of eight strips a rank, so that each has some of what
+/// Which of `size` items a rank works on, and it alone: every size()-th of eight strips a rank, so that each has some of what
 /// is easy and some of what is hard.
-class Shares {
+class Partition {
 public:
-  Shares(const Team& team, std::int64_t size) : rank_(team.rank()), ranks_(team.size()), size_(size) {}
+  Partition(const Communicator& communicator, std::int64_t size) : rank_(communicator.rank()), ranks_(communicator.size()), size_(size) {}
 
   /// Calls work(first, count) for what is this rank's of items from .. from + count - 1, which may be nothing.
   template <class Work>
-  void of(std::int64_t from, std::int64_t count, const Work& work) const
+  void for_own(std::int64_t from, std::int64_t count, const Work& work) const
   {
     if (ranks_ == 1) return work(from, count);
     for (std::int64_t strip = rank_; strip < strips(); strip += ranks_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "team/team.h"
+#include "mpi/ranks.h"
 
 #include "base/files.h"
 
@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <thread>
 
-namespace nephroid::team {
+namespace nephroid::mpi {
 namespace {
 
 /// How many processes were started together, as Open MPI's mpirun or a srun says it; 1 where nobody does.
@@ -55,7 +55,7 @@ std::shared_ptr<Ranks> open_ranks()
 void require_all(Ranks& ranks, const std::optional<Error>& error)
 {
   std::int64_t errors = error ? 1 : 0;
-  ranks.add({&errors, 1});
+  ranks.all_reduce_sum({&errors, 1});
   if (error) throw *error;
   if (errors == 0) return;
   std::this_thread::sleep_for(std::chrono::seconds(60)); // they say why, and end all
@@ -65,10 +65,10 @@ void require_all(Ranks& ranks, const std::optional<Error>& error)
 void require_same(Ranks& ranks, const std::string& what, const std::string& mine)
 {
   std::uint64_t size = mine.size();
-  ranks.tell(std::as_writable_bytes(std::span(&size, 1)));
+  ranks.broadcast(std::as_writable_bytes(std::span(&size, 1)));
   std::string first = mine;
   first.resize(size);
-  ranks.tell(std::as_writable_bytes(std::span(first)));
+  ranks.broadcast(std::as_writable_bytes(std::span(first)));
   std::optional<Error> error;
   if (first != mine)
     error = bad_input(ranks.name(), fmt::format("has another {} than rank 0: {}, and not {}", what, mine, first), {},
@@ -76,4 +76,4 @@ void require_same(Ranks& ranks, const std::string& what, const std::string& mine
   require_all(ranks, error);
 }
 
-} // namespace nephroid::team
+} // namespace nephroid::mpi

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ranks of an MPI job as a team. MPI itself is in a module of its own (mpi/module.cpp), which is loaded where mpirun or srun has
+// The ranks of an MPI job as a communicator. MPI itself is in a module of its own (mpi/module.cpp), which is loaded where mpirun or srun has
 // started this process, and only there.
 #pragma once
 #include "base/error.h"
-#include "base/team.h"
+#include "base/communicator.h"
 
 #include <functional>
 #include <optional>
 #include <string>
 
-namespace nephroid::team {
+namespace nephroid::mpi {
 
-/// What a command needs of its ranks beside their team.
-class Ranks : public Team::Ties {
+/// What a command needs of its ranks beside their communicator.
+class Ranks : public Communicator::Transport {
 public:
   /// "rank 3 on node7"
   virtual std::string name() const = 0;
   /// How many ranks with lower numbers are on the same machine.
   virtual int number_on_host() const = 0;
   /// Returns once rank 0 has called this, too.
-  void wait_for_first()
+  void wait_for_root()
   {
     std::byte nothing{};
-    tell({&nothing, 1});
+    broadcast({&nothing, 1});
   }
   /// Calls work(0), ..., work(count - 1), each on one rank: whoever is free takes the next. Returns on rank 0 once all ranks are done, on
   /// another one once there is nothing to begin. Where work is interrupted, this throws some seconds later, for the others have to save
   /// theirs.
-  virtual void deal(std::int64_t count, const std::function<void(std::int64_t)>& work) = 0;
+  virtual void distribute(std::int64_t count, const std::function<void(std::int64_t)>& work) = 0;
   /// Ends all ranks at once, with this exit code.
   [[noreturn]] virtual void abort(int exit_code) = 0;
 };
@@ -48,4 +48,4 @@ void require_all(Ranks& ranks, const std::optional<Error>& error);
 /// Throws bad_input on each rank whose `mine` is not that of rank 0. what: "version", for the message. No rank goes on where one has.
 void require_same(Ranks& ranks, const std::string& what, const std::string& mine);
 
-} // namespace nephroid::team
+} // namespace nephroid::mpi

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which rank of a team works on what.
-#include "base/team.h"
+// Which rank works on what.
+#include "base/communicator.h"
 #include "tests/support/test.h"
 
-namespace nephroid::team_test {
+namespace nephroid::communicator_test {
 
-class Alone final : public Team::Ties { // a rank that nobody answers
+class Alone final : public Communicator::Transport { // a rank that nobody answers
 public:
   Alone(int rank, int size) : rank_(rank), size_(size) {}
   int rank() const override { return rank_; }
   int size() const override { return size_; }
-  void add(std::span<std::int64_t>) override {}
-  void join(std::span<std::byte>) override {}
-  void tell(std::span<std::byte>) override {}
+  void all_reduce_sum(std::span<std::int64_t>) override {}
+  void all_reduce_or(std::span<std::byte>) override {}
+  void broadcast(std::span<std::byte>) override {}
 
 private:
   int rank_, size_;
 };
 
-Team rank_of(int rank, int size) { return Team(std::make_shared<Alone>(rank, size)); }
+Communicator rank_of(int rank, int size) { return Communicator(std::make_shared<Alone>(rank, size)); }
 
 /// How many ranks work on each of the items when all of them go through the parts first .. first + step - 1, ...
 std::vector<int> workers(int ranks, std::int64_t items, std::int64_t step)
@@ -26,13 +26,13 @@ std::vector<int> workers(int ranks, std::int64_t items, std::int64_t step)
   std::vector<int> count(static_cast<std::size_t>(items));
   for (int rank = 0; rank < ranks; ++rank)
     for (std::int64_t first = 0; first < items; first += step)
-      Shares(rank_of(rank, ranks), items).of(first, std::min(step, items - first), [&](std::int64_t begin, std::int64_t own) {
+      Partition(rank_of(rank, ranks), items).for_own(first, std::min(step, items - first), [&](std::int64_t begin, std::int64_t own) {
         for (std::int64_t i = begin; i < begin + own; ++i) ++count[static_cast<std::size_t>(i)];
       });
   return count;
 }
 
-TEST(Shares, GiveEachItemToOneRank)
+TEST(Partition, GiveEachItemToOneRank)
 {
   for (const int ranks : {1, 2, 3, 7, 64})
     for (const std::int64_t items : {1, 5, 64, 1000, 1009})
@@ -41,12 +41,12 @@ TEST(Shares, GiveEachItemToOneRank)
             << ranks << " " << items << " " << step;
 }
 
-TEST(Shares, AreTheSameHoweverPartsAreCut)
+TEST(Partition, AreTheSameHoweverPartsAreCut)
 {
   const auto of_rank = [](std::int64_t step) {
     std::set<std::int64_t> own;
     for (std::int64_t first = 0; first < 1000; first += step)
-      Shares(rank_of(1, 3), 1000).of(first, std::min(step, 1000 - first), [&](std::int64_t begin, std::int64_t count) {
+      Partition(rank_of(1, 3), 1000).for_own(first, std::min(step, 1000 - first), [&](std::int64_t begin, std::int64_t count) {
         for (std::int64_t i = begin; i < begin + count; ++i) own.insert(i);
       });
     return own;
@@ -55,30 +55,30 @@ TEST(Shares, AreTheSameHoweverPartsAreCut)
   EXPECT_NEAR(static_cast<double>(of_rank(7).size()), 1000.0 / 3, 8);
 }
 
-TEST(Shares, KeepsWhatOneRankOwns)
+TEST(Partition, KeepsWhatOneRankOwns)
 {
   std::vector<int> sum(2 * 3 * 100); // two rounds of 100 items of 3 values
   for (int rank = 0; rank < 4; ++rank) {
     std::vector<int> own(sum.size(), 1);
-    Shares(rank_of(rank, 4), 100).clear_others(std::span(own), 3);
+    Partition(rank_of(rank, 4), 100).clear_others(std::span(own), 3);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += own[i];
     EXPECT_EQ(std::vector<int>(own.begin(), own.begin() + 300), std::vector<int>(own.begin() + 300, own.end()));
     int first = 0;
-    Shares(rank_of(rank, 4), 100).of(0, 100, [&](std::int64_t begin, std::int64_t) { first += own[static_cast<std::size_t>(3 * begin)]; });
+    Partition(rank_of(rank, 4), 100).for_own(0, 100, [&](std::int64_t begin, std::int64_t) { first += own[static_cast<std::size_t>(3 * begin)]; });
     EXPECT_GT(first, 0);
   }
   EXPECT_EQ(sum, std::vector<int>(sum.size(), 1));
 }
 
-TEST(Team, KeepsEverySoManyethItem)
+TEST(Communicator, KeepsEverySoManyethItem)
 {
   std::vector<int> items{0, 1, 2, 3, 4, 5, 6};
-  rank_of(2, 3).keep_own(items);
+  rank_of(2, 3).keep_own_share(items);
   EXPECT_THAT(items, testing::ElementsAre(2, 5));
-  rank_of(1, 2).keep_own(items);
+  rank_of(1, 2).keep_own_share(items);
   EXPECT_THAT(items, testing::ElementsAre(5));
-  Team().keep_own(items);
+  Communicator().keep_own_share(items);
   EXPECT_THAT(items, testing::ElementsAre(5));
 }
 
-} // namespace nephroid::team_test
+} // namespace nephroid::communicator_test
