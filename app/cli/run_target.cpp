@@ -7,7 +7,7 @@
 #include "base/json_output.h"
 #include "cli/progress.h"
 #include "engine/engine.h"
-#include "job/led_job.h"
+#include "job/distributed_job.h"
 #include "run/run.h"
 
 #include <fmt/format.h>
@@ -80,7 +80,7 @@ public:
     if (!job) {
       together.emplace(context, communicator);
       job = run::make_job(prepared, context);
-      if (!communicator.is_alone()) job = job::led(std::move(job), communicator);
+      if (!communicator.is_alone()) job = job::distributed(std::move(job), communicator);
       job = measure::measured(std::move(job), prepared.preset, reference_, began_, options_.pictures_at);
       shared.of_job = target_.preset;
       shared.inputs_of_job = prepared.plan->inputs;
@@ -101,7 +101,7 @@ private:
   {
     const compute::Together together(context, communicator);
     const std::unique_ptr<job::Job> job = run::make_job(prepared, context);
-    job::follow(*job, communicator);
+    job::follow_root(*job, communicator);
   }
 
   bool is_frame() const { return !target_.animation.empty(); }

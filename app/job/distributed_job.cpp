@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/led_job.h"
+#include "job/distributed_job.h"
 
 #include <exception>
 #include <type_traits>
@@ -9,15 +9,15 @@ namespace {
 
 enum class Call : std::uint8_t { step, snapshot, save, load, end };
 
-class Nowhere final : public ByteSink {
+class NullSink final : public ByteSink {
 public:
   void write(std::span<const std::byte>) override {}
 };
 
 /// Where a disk is full the others go on all the same, and rank 0 has to keep in step with them.
-class Patient final : public ByteSink {
+class DeferringSink final : public ByteSink {
 public:
-  explicit Patient(ByteSink& to) : to_(to) {}
+  explicit DeferringSink(ByteSink& to) : to_(to) {}
   void write(std::span<const std::byte> bytes) override
   {
     if (thrown_) return;
@@ -37,11 +37,11 @@ private:
   std::exception_ptr thrown_;
 };
 
-class LedJob final : public Job {
+class DistributedJob final : public Job {
 public:
-  LedJob(std::unique_ptr<Job> job, const Communicator& communicator) : job_(std::move(job)), communicator_(communicator) {}
+  DistributedJob(std::unique_ptr<Job> job, const Communicator& communicator) : job_(std::move(job)), communicator_(communicator) {}
   /// What failed ends all ranks anyway.
-  ~LedJob() override
+  ~DistributedJob() override
   {
     if (std::uncaught_exceptions() > 0 || thrown_) return;
     try {
@@ -61,7 +61,7 @@ public:
   Snapshot snapshot() override
   {
     call(Call::snapshot);
-    Snapshot snapshot = kept([&] { return job_->snapshot(); });
+    Snapshot snapshot = remembering_failure([&] { return job_->snapshot(); });
     const Communicator::Traffic traffic = communicator_.traffic();
     snapshot.scalars.insert(snapshot.scalars.end(), {{"ranks", "count", static_cast<double>(communicator_.size())},
                                                      {"ranks", "calls", static_cast<double>(traffic.calls)},
@@ -73,9 +73,9 @@ public:
   void save(ByteSink& to) override
   {
     call(Call::save);
-    Patient patient(to);
-    kept([&] { job_->save(patient); });
-    patient.rethrow();
+    DeferringSink sink(to);
+    remembering_failure([&] { job_->save(sink); });
+    sink.rethrow();
   }
   void load(ByteSource& from) override
   {
@@ -95,7 +95,7 @@ private:
     communicator_.broadcast(next);
   }
   template <class Work>
-  std::invoke_result_t<Work> kept(Work work)
+  std::invoke_result_t<Work> remembering_failure(Work work)
   {
     try {
       return work();
@@ -112,11 +112,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<Job> led(std::unique_ptr<Job> job, const Communicator& communicator) { return std::make_unique<LedJob>(std::move(job), communicator); }
+std::unique_ptr<Job> distributed(std::unique_ptr<Job> job, const Communicator& communicator) { return std::make_unique<DistributedJob>(std::move(job), communicator); }
 
-void follow(Job& job, const Communicator& communicator)
+void follow_root(Job& job, const Communicator& communicator)
 {
-  Nowhere nowhere;
+  NullSink null_sink;
   while (true) switch (communicator.broadcast(Call::end)) {
     case Call::step:
       job.step();
@@ -125,7 +125,7 @@ void follow(Job& job, const Communicator& communicator)
       job.snapshot();
       break;
     case Call::save:
-      job.save(nowhere);
+      job.save(null_sink);
       break;
     case Call::load: {
       const std::vector<std::byte> bytes = communicator.broadcast(std::vector<std::byte>());
