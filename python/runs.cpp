@@ -43,7 +43,7 @@ const char* word(job::State state)
   return "";
 }
 
-/// Waits for the step in hand, and holds up no other Python thread meanwhile.
+/// Waits for the slice in hand, and holds up no other Python thread meanwhile.
 void end(job::Worker* worker)
 {
   std::optional<py::gil_scoped_release> released;
@@ -90,7 +90,7 @@ public:
     return made_ ? made_->prepared.plan->notes : std::vector<std::string>();
   }
 
-  /// Waits for the step in hand. A call of another thread that is at it keeps the worker until it returns.
+  /// Waits for the slice in hand. A call of another thread that is at it keeps the worker until it returns.
   void close()
   {
     if (!is_of_this_process()) return;

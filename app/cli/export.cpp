@@ -82,7 +82,7 @@ std::optional<run::Caustic> caustic_on(const ExportOptions& options, const run::
   ProgressDisplay display(progress_style(false), {name, prepared.preset.name}, job->progress());
   while (!job->finished()) {
     if (interrupted.stop_requested()) throw Error(ErrorKind::interrupted, "export", "was interrupted", "nothing is written");
-    job->step();
+    job->advance();
     display.update(job->progress());
   }
   display.finish(job->progress());

@@ -181,7 +181,7 @@ private:
     ProgressDisplay display(progress_style(options_.json), {target_.label, target_.preset.name}, job.progress());
     double saved_at = job.progress().work_seconds;
     while (!job.finished() && !interrupted_.stop_requested()) {
-      job.step();
+      job.advance();
       const job::Progress progress = job.progress();
       display.update(progress);
       note_history(job, display);

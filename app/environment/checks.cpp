@@ -37,7 +37,7 @@ check::Result ball_in_parallel_light(const compute::Context& context, std::uint6
   BakeTask task = make_task(ball_preset(seed));
   task.directions = {light};
   Baker baker(task, context);
-  while (!baker.finished()) baker.step();
+  while (!baker.finished()) baker.advance();
   const Bake& bake = baker.bake();
   double farthest = 0;
   for (std::size_t sphere = 0; sphere < bake.radii.size(); ++sphere) {

@@ -39,7 +39,7 @@ public:
     if (refines() || bake_) begin_rendering(plan.photons);
   }
 
-  void step() override
+  void advance() override
   {
     const auto begin = Clock::now();
     if (renderer_) renderer_->renew_tree();
@@ -51,7 +51,7 @@ public:
     else if (photons_next)
       send_photons();
     else
-      renderer_->step();
+      renderer_->advance();
     seconds += std::chrono::duration<double>(Clock::now() - begin).count();
   }
 
@@ -209,7 +209,7 @@ private:
 
   void send_photons()
   {
-    if (photons_) return photons_->step();
+    if (photons_) return photons_->advance();
     scene::Scene scene = renderer_->scene();
     scene.camera = scene::make_camera(shown_.scene.camera, scene);
     if (scene.environment) scene.environment->rotate_deg = backdrop_rotate_deg();
@@ -284,7 +284,7 @@ private:
 
   void bake()
   {
-    baker_->step();
+    baker_->advance();
     if (!baker_->finished()) return;
     baked_photons_ = baker_->photons();
     bake_ = baker_->take();

@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-constexpr double step_seconds = 0.025;
+constexpr double slice_seconds = 0.025;
 /// Of a run's work that the judge is, for its progress only.
 constexpr double judge_part = 0.1;
 
@@ -51,10 +51,10 @@ public:
     note_step();
   }
 
-  void step() override
+  void advance() override
   {
     const Clock::time_point begin = Clock::now();
-    while (!finished() && context_.communicator().broadcast(since(begin) < step_seconds)) advance();
+    while (!finished() && context_.communicator().broadcast(since(begin) < slice_seconds)) advance_stage();
     (judge_ ? judge_seconds_ : method_seconds_) += since(begin);
   }
 
@@ -180,7 +180,7 @@ private:
     return preset_.stop.seconds ? std::nullopt : std::optional(method_->most());
   }
 
-  void advance()
+  void advance_stage()
   {
     if (judge_ && !judged())
       judge_->advance();
@@ -360,7 +360,7 @@ private:
   /// What the picture of the object is of.
   struct Viewed {
     std::int64_t steps = 0;
-    int quarter = 0; ///< of the step in hand
+    int quarter = 0; ///< of the slice in hand
     bool judged = false;
     preset::Camera camera;
     bool operator==(const Viewed&) const = default;

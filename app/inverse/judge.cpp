@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t group = 32;
 /// A step's rays, some milliseconds of two cores.
-constexpr int rays_a_step = 1 << 15;
+constexpr int rays_a_slice = 1 << 15;
 
 /// Rays along one side of a facet: about two million a round.
 int rays_along(const Layout& layout) { return std::clamp(1448 / std::max(layout.facets.x, layout.facets.y), 4, 45); }
@@ -195,7 +195,7 @@ void Judge::advance()
 {
   const int rays_a_row = layout_.facets.x * front_.along * front_.along;
   const Communicator& communicator = context_.communicator();
-  const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_step / rays_a_row) * communicator.size());
+  const int rows = std::min(layout_.facets.y - row_, std::max(1, rays_a_slice / rays_a_row) * communicator.size());
   const auto turn = static_cast<std::uint32_t>(round_);
   Partition(communicator, layout_.facets.y).for_own(row_, rows, [&](std::int64_t first_row, std::int64_t own) {
     judge_rows(static_cast<std::uint32_t>(first_row), static_cast<std::uint32_t>(own * rays_a_row), turn);

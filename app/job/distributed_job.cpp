@@ -7,7 +7,7 @@
 namespace nephroid::job {
 namespace {
 
-enum class Call : std::uint8_t { step, snapshot, save, load, end };
+enum class Call : std::uint8_t { advance, snapshot, save, load, end };
 
 class NullSink final : public ByteSink {
 public:
@@ -51,10 +51,10 @@ public:
     }
   }
 
-  void step() override
+  void advance() override
   {
-    call(Call::step);
-    job_->step();
+    call(Call::advance);
+    job_->advance();
   }
   bool finished() const override { return job_->finished(); }
   Progress progress() const override { return job_->progress(); }
@@ -118,8 +118,8 @@ void follow_root(Job& job, const Communicator& communicator)
 {
   NullSink null_sink;
   while (true) switch (communicator.broadcast(Call::end)) {
-    case Call::step:
-      job.step();
+    case Call::advance:
+      job.advance();
       break;
     case Call::snapshot:
       job.snapshot();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one interface of all engines: a job advances in short steps and shows itself as immutable snapshots.
+// The one interface of all engines: a job advances in slices of about 30 ms and shows itself as immutable snapshots.
 #pragma once
 #include "base/bytes.h"
 #include "job/history.h"
@@ -35,7 +35,7 @@ struct Progress {
   std::int64_t step = 0;   ///< steps completed; the one in hand is in `fraction` and `work` only
   std::int64_t steps = -1; ///< in all; -1: it stops by time
   std::uint64_t work = 0;  ///< done so far: photons sent, facets tried, ...
-  double work_seconds = 0; ///< of stepping, without start-up and snapshots
+  double work_seconds = 0; ///< of advancing, without start-up and snapshots
   bool whole = true;       ///< false: parts of the picture are black since nothing was computed for them yet
   Units units = {};
 };
@@ -94,7 +94,7 @@ class Job {
 public:
   virtual ~Job() = default;
   /// One short piece of work, about 30 ms. Never called once finished() is true.
-  virtual void step() = 0;
+  virtual void advance() = 0;
   virtual bool finished() const = 0;
   virtual Progress progress() const = 0;
   /// Reads the device's state and makes a picture of it. Takes a few milliseconds; with smoothing a tenth of a second or more where the

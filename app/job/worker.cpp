@@ -235,7 +235,7 @@ struct Worker::Impl {
         shown = adopted_at = Clock::now();
         continue;
       }
-      job.step();
+      job.advance();
       Clock::time_point due = Clock::time_point::max(); // nobody waits for the picture of a job that was replaced
       update(generation, [&, progress = job.progress()] {
         status.progress = progress;

@@ -35,7 +35,7 @@ public:
   /// newer one overtakes while the job works at it starts and fails nothing. A cancel() or pause() that follows holds, whatever becomes of
   /// it.
   std::uint64_t adopt(std::shared_ptr<const preset::Preset> preset, std::function<std::unique_ptr<Job>()> otherwise);
-  void cancel(); ///< after the step in hand; or after make() where that still runs, which may end early by throwing interrupted
+  void cancel(); ///< after the slice in hand; or after make() where that still runs, which may end early by throwing interrupted
   void pause(bool paused);
   Status status() const;
   /// The newest snapshot, null before the first ever: after start() the old job's stays until the new one's first, so that a

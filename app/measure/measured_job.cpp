@@ -114,14 +114,14 @@ public:
   bool estimates_error() const override { return job_->estimates_error(); }
   bool finished() const override { return target_reached() || (job_->finished() && !is_due()); }
 
-  void step() override
+  void advance() override
   {
     if (unnoted_)
       note(*std::exchange(unnoted_, std::nullopt));
     else if (is_due())
       measure();
     else
-      job_->step();
+      job_->advance();
   }
 
   job::Progress progress() const override

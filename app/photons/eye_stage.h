@@ -33,9 +33,9 @@ public:
   double part() const override { return pixels_.part(); }
   void share_work(const Noise& noise) override { pixels_.share_work(noise); }
 
-  bool step(std::int64_t pass) override
+  bool advance(std::int64_t pass) override
   {
-    return pixels_.step(pass, [&](const compute::Buffer<shared::uint2>& samples, std::uint32_t count) {
+    return pixels_.advance(pass, [&](const compute::Buffer<shared::uint2>& samples, std::uint32_t count) {
       run(film_, world_.tables.camera, samples, count);
     });
   }

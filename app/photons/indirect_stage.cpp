@@ -7,7 +7,7 @@
 #include "photons/tables/run_tables.h"
 #include "tracing/film.h"
 #include "tracing/scales.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 #include "tracing/targets.h"
 
 #include <numeric>
@@ -85,9 +85,9 @@ public:
   double part() const override { return slices_.part(); }
   std::uint64_t photons_per_pass() const override { return tables_.photons_per_pass; }
 
-  bool step(std::int64_t pass) override
+  bool advance(std::int64_t pass) override
   {
-    return slices_.step(world_.context.communicator(), tables_.photons_per_pass, [&](const tracing::Slice& slice) {
+    return slices_.advance(world_.context.communicator(), tables_.photons_per_pass, [&](const tracing::PhotonSlice& slice) {
       world_.send(kernel_, slice, pass,
                   {{"everything", everything_},
                    {"emitters", emitters_},
@@ -107,7 +107,7 @@ public:
   {
     const double part_of_pass = static_cast<double>(world_.first.rounds) / world_.tables.rounds;
     if (tables_.photons_per_pass < 1 << 16 || part() >= part_of_pass) return true;
-    step(0);
+    advance(0);
     return false;
   }
 

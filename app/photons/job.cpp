@@ -93,7 +93,7 @@ public:
     return at_.pass >= (passes_ >= 0 ? passes_ : preset::max_passes); // sums are exact so long
   }
 
-  void step() override
+  void advance() override
   {
     if (looks_ < first_edges_.size()) return look();
     if (at_.pass == 1 && at_.stage == 0 && !at_.part_of_pass && smooths_seen_ && smoothing_)
@@ -102,7 +102,7 @@ public:
     if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 2 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
     TimedStage& now = stages_[at_.stage];
-    const bool complete = at_.pass >= now.stage->passes() || now.stage->step(at_.pass);
+    const bool complete = at_.pass >= now.stage->passes() || now.stage->advance(at_.pass);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     now.seconds += seconds;
     at_.work_seconds += seconds;

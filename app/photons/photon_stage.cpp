@@ -3,7 +3,7 @@
 #include "photons/effort/emitters.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 
 #include <fmt/format.h>
 
@@ -41,13 +41,13 @@ public:
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
   bool counts_energy() const override { return true; }
 
-  bool step(std::int64_t pass) override
+  bool advance(std::int64_t pass) override
   {
     const RunTables& t = world_.tables;
     const std::int64_t round = pass * t.rounds + round_;
     if (round_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is one rank's to store
     if (by_variance_ && slices_.at_start() && round >= first_deal(t.rounds) && deal_.is_due(round)) deal(round);
-    const bool complete = slices_.step(world_.context.communicator(), t.photons_per_round, [&](const tracing::Slice& slice) {
+    const bool complete = slices_.advance(world_.context.communicator(), t.photons_per_round, [&](const tracing::PhotonSlice& slice) {
       world_.send(kernel_, slice, round,
                   {{"targets", world_.buffers.targets},
                    {"emitters", world_.emitters},
@@ -78,7 +78,7 @@ public:
 
   bool look() override
   {
-    if (round_ < world_.first.rounds) step(0);
+    if (round_ < world_.first.rounds) advance(0);
     return round_ >= world_.first.rounds;
   }
 

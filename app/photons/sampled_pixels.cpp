@@ -11,7 +11,7 @@
 namespace nephroid::photons {
 namespace {
 
-constexpr std::size_t most_samples_a_step = 1 << 18;
+constexpr std::size_t most_samples_a_slice = 1 << 18;
 
 /// The least keeps an eye on what the first samples have missed; the most lets photons have their turn.
 constexpr double least_rate = 1.0 / 31, most_rate = 64;
@@ -69,7 +69,7 @@ private:
 
 SampledPixels::SampledPixels(const DeviceWorld& world, std::int64_t enough)
     : world_(world), enough_(enough), passes_(world.pixels.glass.empty() ? enough : preset::max_passes), counts_(world.pixels.count),
-      rates_(world.pixels.count, 1), on_device_(world.context, "samples", most_samples_a_step)
+      rates_(world.pixels.count, 1), on_device_(world.context, "samples", most_samples_a_slice)
 {
 }
 
@@ -85,7 +85,7 @@ std::int64_t SampledPixels::samples_in(std::size_t pixel, std::int64_t pass) con
 void SampledPixels::take_next(std::int64_t pass, double amount)
 {
   next_.clear();
-  const auto most = static_cast<std::size_t>(std::clamp(amount, 1.0, most_samples_a_step - most_rate));
+  const auto most = static_cast<std::size_t>(std::clamp(amount, 1.0, most_samples_a_slice - most_rate));
   const auto half = static_cast<std::uint32_t>(pass % 2);
   auto pixel = static_cast<std::size_t>(done_);
   for (; pixel < counts_.size() && next_.size() < most; ++pixel)

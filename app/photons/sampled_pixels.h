@@ -9,7 +9,7 @@
 #include "photons/stage.h"
 #include "photons/tables/device_world.h"
 #include "tracing/state.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 
 #include <array>
 #include <cstdint>
@@ -30,7 +30,7 @@ public:
   /// Calls work(samples, count) for the next samples of the pass, on the device: x is the pixel, y which of its samples this is. Those with
   /// an even number are of the film's first half, those with an odd one of the second. True when the pass is complete.
   template <class Work>
-  bool step(std::int64_t pass, const Work& work)
+  bool advance(std::int64_t pass, const Work& work)
   {
     take_next(pass, amount_.amount(world_.context.communicator()));
     amount_.timed(static_cast<double>(next_count_), [&] {
@@ -59,7 +59,7 @@ private:
   std::vector<shared::uint2> next_;                  ///< of them this rank's
   std::size_t next_count_ = 0;                       ///< of all ranks
   compute::Buffer<shared::uint2> on_device_;
-  tracing::StepSize amount_{1024};
+  tracing::SliceSize amount_{1024};
 };
 
 } // namespace nephroid::photons

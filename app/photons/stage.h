@@ -46,16 +46,16 @@ public:
     ByteStore kept; // little: films are still all 0, and such pieces are left out
     tracing::State before(kept);
     state(before);
-    step(0);
+    advance(0);
     StoredBytes bytes(kept.bytes(), name());
     tracing::State back(bytes);
     state(back);
   }
   /// How many passes it takes part in: what has had enough samples takes no more.
   virtual std::int64_t passes() const { return preset::max_passes; }
-  /// One step of about 30 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.
-  virtual bool step(std::int64_t pass) = 0;
-  /// One step of its part of a first picture (DeviceWorld::first), before the first pass. True when that is complete.
+  /// One slice of about 30 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.
+  virtual bool advance(std::int64_t pass) = 0;
+  /// One slice of its part of a first picture (DeviceWorld::first), before the first pass. True when that is complete.
   virtual bool look() { return true; }
   /// Adds its layers to the first picture, as develop.
   virtual void develop_first(job::Picture& /*picture*/) {}

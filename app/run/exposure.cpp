@@ -60,7 +60,7 @@ double fitted_white(const Prepared& prepared, const compute::Context& context, c
   const std::unique_ptr<job::Job> job = make_job(small, context);
   while (job->progress().step < 1 && !job->finished()) {
     watch.begin("fitting white to a small picture");
-    job->step();
+    job->advance();
   }
   return white_for(*job->snapshot().picture);
 }

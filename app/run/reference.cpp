@@ -125,7 +125,7 @@ std::vector<float> rendered_seed(const Prepared& prepared, const compute::Contex
   while (!job->finished()) {
     if (stop.stop_requested())
       throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted while the reference was rendered; nothing of it is kept");
-    job->step();
+    job->advance();
     const job::Progress now = job->progress();
     if (seconds == 0) require_time(prepared, now);
     report((seconds > 0 ? 0.5 : 0) + 0.5 * now.fraction, seconds + now.work_seconds);

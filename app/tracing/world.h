@@ -82,7 +82,7 @@ struct World {
     kernel.run(global, local, arguments, own);
   }
 
-  /// The same, and waits for it, so that a step's time is that of its work (step_size.h). Steps of several launches queue() and wait once.
+  /// The same, and waits for it, so that a slice's time is that of its work (slices.h). Slices of several launches queue() and wait once.
   void run(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
            std::initializer_list<compute::Argument> more = {})
   {

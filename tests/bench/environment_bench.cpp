@@ -38,7 +38,7 @@ struct Bench {
     const scene::Scene scene = scene::load_scene(preset);
     const environment::EnvironmentPlan plan = environment::make_plan(preset, scene, scene::build_bvh(scene.geometry));
     job = environment::make_job(preset, plan, context);
-    while (job->progress().step < 2) job->step();
+    while (job->progress().step < 2) job->advance();
   }
 };
 
@@ -64,7 +64,7 @@ void move(benchmark::State& state, const std::function<void(preset::Preset&, int
     show_change();
     state.PauseTiming();
     const auto begin = std::chrono::steady_clock::now();
-    while (bench.job->progress().step < 1) bench.job->step();
+    while (bench.job->progress().step < 1) bench.job->advance();
     pass_s += seconds_since(begin);
     state.ResumeTiming();
   }

@@ -23,7 +23,7 @@ public:
     const photons::RunPlan plan = spectral::make_plan(preset_, scene_, bvh_, leave_out_);
     const double begin = processor_seconds();
     job_ = photons::make_job(preset_, scene_, bvh_, plan, context);
-    for (int step = 0; step < 3 && !job_->finished(); ++step) job_->step(); // code is generated at a kernel's first use
+    for (int step = 0; step < 3 && !job_->finished(); ++step) job_->advance(); // code is generated at a kernel's first use
     build_s_ = processor_seconds() - begin;
     if (!job_->finished()) pass();
     pass_s_ = std::numeric_limits<double>::max();
@@ -75,7 +75,7 @@ public:
 private:
   void pass()
   {
-    for (const std::int64_t before = job_->progress().step; !job_->finished() && job_->progress().step == before;) job_->step();
+    for (const std::int64_t before = job_->progress().step; !job_->finished() && job_->progress().step == before;) job_->advance();
   }
 
   preset::Preset preset_;

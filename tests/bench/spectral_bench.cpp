@@ -36,9 +36,9 @@ void step_through(benchmark::State& state, const preset::Preset& p, const Count&
 {
   const Bench bench(p);
   job::Job* const job = bench.job.get();
-  for (int warm_up = 0; warm_up < 20; ++warm_up) job->step();
+  for (int warm_up = 0; warm_up < 20; ++warm_up) job->advance();
   const double before = count(job->progress());
-  for (auto _ : state) job->step();
+  for (auto _ : state) job->advance();
   state.counters["per_second"] = benchmark::Counter(count(job->progress()) - before, benchmark::Counter::kIsRate);
 }
 
@@ -76,7 +76,7 @@ void picture(benchmark::State& state)
   spectral::settings(p).smoothing = state.range(0) != 0 ? Smoothing::on : Smoothing::off;
   const Bench bench(p);
   job::Job* const job = bench.job.get();
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   for (auto _ : state) benchmark::DoNotOptimize(job->snapshot());
 }
 

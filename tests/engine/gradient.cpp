@@ -38,7 +38,7 @@ public:
     for (auto& half : sums_) half.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
   }
 
-  void step() override
+  void advance() override
   {
     std::mt19937_64 random(seed_ * 1000003 + static_cast<std::uint64_t>(done_));
     std::normal_distribution<double> noise(0, settings_.noise / std::sqrt(settings_.samples_per_pass));
@@ -157,7 +157,7 @@ check::Result rises(const compute::Context&, std::uint64_t seed)
   GradientPlan plan;
   plan.settings = settings(preset);
   GradientJob job(preset, plan);
-  while (!job.finished()) job.step();
+  while (!job.finished()) job.advance();
   const job::Snapshot snapshot = job.snapshot();
   double mean = 0;
   for (std::size_t row = 0; row < 64; ++row) mean += snapshot.picture->rgb[3 * (8 * row + 7)] / 64.0;

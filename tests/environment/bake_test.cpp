@@ -298,9 +298,9 @@ TEST(Bake, KnowsItsTimeLeftAfterADirection)
       environment::make_task(bake_preset(glass_ball, {"environment.resolution=16", "environment.photons=1000"}));
   environment::Baker baker(task, bake_context());
   EXPECT_EQ(baker.seconds_left(), std::nullopt);
-  while (baker.bake().baked.empty()) baker.step();
+  while (baker.bake().baked.empty()) baker.advance();
   EXPECT_GT(baker.seconds_left().value(), 0);
-  while (!baker.finished()) baker.step();
+  while (!baker.finished()) baker.advance();
   EXPECT_EQ(baker.seconds_left(), 0);
 }
 

@@ -31,7 +31,7 @@ inline environment::Bake bake_of(const preset::Preset& preset, std::vector<glm::
   environment::BakeTask task = environment::make_task(preset);
   if (!directions.empty()) task.directions = std::move(directions);
   environment::Baker baker(task, bake_context());
-  while (!baker.finished()) baker.step();
+  while (!baker.finished()) baker.advance();
   return baker.take();
 }
 

@@ -25,7 +25,7 @@ environment::EnvironmentPlan planned(const preset::Preset& p)
 job::Snapshot shown(const preset::Preset& p)
 {
   const auto job = environment::make_job(p, planned(p), bake_context());
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   return job->snapshot();
 }
 bool runs(const preset::Preset& p, const std::string& name)

@@ -172,8 +172,8 @@ TEST_F(EnvironmentJob, GoesOnWithTheSameBits)
   for (const std::int64_t directions : {0, 7}) {
     std::filesystem::remove(plan.bake_file);
     const auto begun = job_of(p, plan);
-    while (begun->progress().step < directions) begun->step();
-    begun->step(); // a part of a direction
+    while (begun->progress().step < directions) begun->advance();
+    begun->advance(); // a part of a direction
     const std::uint64_t sent = begun->progress().work;
     const auto bytes = saved(*begun);
     const auto resumed = job_of(p, plan);

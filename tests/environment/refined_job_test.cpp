@@ -22,7 +22,7 @@ protected:
     p.seed += 1000;
     const EnvironmentPlan plan = plan_of(p);
     const auto job = environment::make_photons(p, *plan.render->scene, *plan.render->bvh, *plan.photons, bake_context());
-    while (job->progress().step < 32) job->step();
+    while (job->progress().step < 32) job->advance();
     return layer_rgb(job->snapshot(), "caustic");
   }
 
@@ -60,7 +60,7 @@ TEST_F(EnvironmentRefined, IsNeverWorseThanSpheres)
   const auto job = job_of(p);
   double spheres = 0;
   while (!job->finished()) {
-    job->step();
+    job->advance();
     const job::Snapshot now = job->snapshot();
     if (!now.caption.empty()) continue;
     const double off = rel_l2(layer_rgb(now, "caustic"), is);
@@ -97,7 +97,7 @@ TEST_F(EnvironmentRefined, HasAPictureWhileItBakes)
   const auto cold = job_of(p);
   double caustics = 0;
   while (!cold->finished()) {
-    cold->step();
+    cold->advance();
     const job::Snapshot now = cold->snapshot();
     if (!now.caption.empty()) caustics = std::max(caustics, sum(layer_rgb(now, "caustic")));
   }
@@ -118,7 +118,7 @@ TEST_F(EnvironmentRefined, GoesOnWithTheSameBits)
       EXPECT_EQ(resumed->snapshot().picture->rgb, begun->snapshot().picture->rgb) << "after step " << step;
       EXPECT_EQ(run(*resumed).picture->rgb, whole) << "saved after step " << step;
     }
-    begun->step();
+    begun->advance();
   }
 }
 

@@ -24,7 +24,7 @@ TEST_F(EnvironmentViewJob, ShowsItsLayers)
 {
   const auto job = job_of(lit());
   EXPECT_NE(job->snapshot().caption, "") << "its picture is of the bake";
-  while (job->progress().work == 0) job->step(); // the bake
+  while (job->progress().work == 0) job->advance(); // the bake
   const job::Snapshot coarse = job->snapshot(), made = run(*job);
   EXPECT_EQ(coarse.caption, "");
   EXPECT_EQ(made.progress.step, 2);
@@ -52,7 +52,7 @@ TEST_F(EnvironmentViewJob, ItsFirstPictureHasNoNoise)
     preset::Preset p = lit();
     p.seed = seed;
     const auto job = job_of(p);
-    while (job->progress().work == 0) job->step(); // the bake
+    while (job->progress().work == 0) job->advance(); // the bake
     const std::vector<float> before = std::exchange(first, layer_rgb(job->snapshot(), "background")),
                              after = std::exchange(last, layer_rgb(run(*job), "background"));
     if (seed == 1) continue;
@@ -68,7 +68,7 @@ TEST_F(EnvironmentViewJob, ItsFractionRisesWithAllItDoes)
     const auto job = job_of(lit());
     double before = 0;
     while (!job->finished()) {
-      job->step();
+      job->advance();
       const job::Progress now = job->progress();
       EXPECT_GE(now.fraction, before) << what << ", after pass " << now.step;
       EXPECT_LT(now.fraction, before + 0.3) << what << ", after pass " << now.step;
@@ -97,7 +97,7 @@ TEST_F(EnvironmentViewJob, GoesOnWithTheSameBits)
       for (const std::size_t cut : {std::size_t{0}, std::size_t{10}, bytes.size() / 2, bytes.size() - 1})
         EXPECT_THAT(refusal_of([&] { load(*resumed, std::span(bytes).first(cut)); }), HasSubstr("checkpoint"));
     }
-    begun->step();
+    begun->advance();
   }
 }
 
@@ -133,7 +133,7 @@ TEST_F(EnvironmentViewJob, AdoptsWithTheBitsOfARunOfItsOwn)
     preset::Preset now = before;
     change(now);
     ASSERT_TRUE(job->adopt(before)) << name;
-    for (int step = 0; step < 2; ++step) job->step();
+    for (int step = 0; step < 2; ++step) job->advance();
     ASSERT_TRUE(job->adopt(now)) << name;
     expect_same(run(*job), run(now), name);
   }
@@ -175,7 +175,7 @@ TEST_F(EnvironmentViewJob, AdoptsWhereObjectsStand)
     for (const auto& [name, change] : changes) {
       preset::Preset now = before;
       change(now);
-      for (int step = 0; step < 3; ++step) job->step();
+      for (int step = 0; step < 3; ++step) job->advance();
       ASSERT_TRUE(job->adopt(now)) << name;
       expect_near(run(*job), run(now), name);
     }
@@ -193,7 +193,7 @@ TEST_F(EnvironmentViewJob, AdoptsWhileItBakes)
 {
   preset::Preset p = lit();
   const auto job = job_of(p);
-  job->step();
+  job->advance();
   p.scene.environment->rotate_deg = 75;
   environment::settings(p).lights = 8;
   look(p, {-3, 1, 2}, {0, -1, 0}, 40);
@@ -208,7 +208,7 @@ TEST_F(EnvironmentViewJob, GoesBackToAHalfMadeBake)
   preset::Preset now = p;
   look(now, {-3, 1, 2}, {0, -1, 0}, 40);
   const auto job = job_of(p);
-  job->step();
+  job->advance();
   const auto baking = saved(*job);
   run(*job);
   ASSERT_TRUE(job->adopt(now));
@@ -225,7 +225,7 @@ TEST_F(EnvironmentViewJob, AnotherWhiteGoesOn)
   preset::Preset brighter = p;
   brighter.white = 0.5 * p.white;
   const auto job = job_of(p);
-  while (job->progress().step < 1) job->step();
+  while (job->progress().step < 1) job->advance();
   const double seconds = job->progress().work_seconds;
   ASSERT_TRUE(job->adopt(brighter));
   EXPECT_EQ(job->progress().step, 1);
@@ -260,7 +260,7 @@ TEST_F(EnvironmentViewJob, GoesOnAfterAChange)
   const auto job = job_of(before);
   for (const int steps : {4, 6, 7}) {
     ASSERT_TRUE(job->adopt(before));
-    for (int step = 0; step < steps && !job->finished(); ++step) job->step();
+    for (int step = 0; step < steps && !job->finished(); ++step) job->advance();
     ASSERT_TRUE(job->adopt(now));
     const auto bytes = saved(*job);
     const auto resumed = job_of(now);
@@ -296,7 +296,7 @@ TEST_F(EnvironmentViewJob, RefusesToAdoptLightOfNoOneDirection)
 {
   const preset::Preset p = lit();
   const auto job = job_of(p);
-  while (job->progress().step == 0) job->step();
+  while (job->progress().step == 0) job->advance();
   preset::Preset now = p;
   now.scene.lights = {preset::Light{}};
   EXPECT_THAT(refusal_of([&] { job->adopt(now); }), testing::StartsWith("own.json#/scene/lights/0/type: is no directional light"));
@@ -334,7 +334,7 @@ TEST_F(EnvironmentViewJob, DoesNotAdoptBlackLight)
   EXPECT_TRUE(environment::adoptable(p, dark));
   const auto job = job_of(p);
   EXPECT_FALSE(job->adopt(dark)); // while it bakes
-  while (job->progress().step == 0) job->step();
+  while (job->progress().step == 0) job->advance();
   EXPECT_FALSE(job->adopt(dark));
   expect_same(run(*job), run(p), "after black light");
   dark.scene.lights = {lamp({0, -1, 0})};

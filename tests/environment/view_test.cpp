@@ -50,7 +50,7 @@ Furnace furnace(job::Job& job, preset::Preset& p)
     const glm::dvec3 way = scene::even_direction(i, around);
     look(p, 1.9 * way, receivers_at * way, 2.5);
     EXPECT_TRUE(job.adopt(p));
-    while (!job.finished()) job.step();
+    while (!job.finished()) job.advance();
     const job::Snapshot shown = job.snapshot();
     made.direct.push_back(mean(layer_rgb(shown, "direct")).y);
     made.caustic.push_back(mean(layer_rgb(shown, "caustic")).y);

@@ -22,7 +22,7 @@ protected:
   static std::unique_ptr<job::Job> job_of(const preset::Preset& p) { return job_of(p, plan_of(p)); }
   static job::Snapshot run(job::Job& job)
   {
-    while (!job.finished()) job.step();
+    while (!job.finished()) job.advance();
     return job.snapshot();
   }
   static job::Snapshot run(const preset::Preset& p) { return run(*job_of(p)); }

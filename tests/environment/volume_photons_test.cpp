@@ -52,7 +52,7 @@ Picture seen(const preset::Preset& p, const environment::BakeTask& bake_task, co
   environment::Caustics caustics(bake, bake_context());
   environment::Renderer renderer(std::move(task), 1, 1, bake_context());
   renderer.set_caustics(caustics);
-  while (renderer.passes() < passes) renderer.step();
+  while (renderer.passes() < passes) renderer.advance();
   const environment::Renderer::Layer volume = renderer.layers().back();
   EXPECT_STREQ(volume.name, "volume");
   Picture y;

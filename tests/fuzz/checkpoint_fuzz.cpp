@@ -64,7 +64,7 @@ Begun& begun(std::size_t which)
   const preset::Preset preset = preset::parse_preset(presets[which], "fuzz.json");
   run::Prepared prepared = run::prepare(preset);
   std::unique_ptr<job::Job> job = measure::measured(run::make_job(prepared, context()), preset, nullptr, std::chrono::steady_clock::now());
-  for (int step = 0; step < 4 && !job->finished(); ++step) job->step();
+  for (int step = 0; step < 4 && !job->finished(); ++step) job->advance();
   run::write_checkpoint(folder(), prepared, context(), *job);
   const std::string file = read_file(folder() / "checkpoint.bin");
   jobs[which] = std::make_unique<Begun>(Begun{std::move(prepared), std::move(job), file.substr(0, header_bytes),

@@ -41,7 +41,7 @@ Ended run_measured(const preset::Preset& preset)
   const scene::Bvh bvh = scene::build_bvh(scene.geometry);
   const photons::RunPlan plan = spectral::make_plan(preset, scene, bvh);
   const auto job = measure::measured(photons::make_job(preset, scene, bvh, plan, test::shared_context()), preset, nullptr);
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   const job::Snapshot snapshot = job->snapshot();
   return {snapshot.picture->rgb, *snapshot.history};
 }

@@ -157,7 +157,7 @@ public:
   {
     preset_.seed = seed;
     const auto job = photons::make_job(preset_, scene_, bvh_, plan_, shared_context());
-    while (!job->finished()) job->step();
+    while (!job->finished()) job->advance();
     return job->snapshot();
   }
   int samples() const { return *plan_.settings.pixel_samples; }

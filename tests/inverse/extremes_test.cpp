@@ -40,7 +40,7 @@ job::Snapshot design(const Json& settings)
   preset::Preset p;
   const inverse::InversePlan plan = plan_of(settings, p);
   const auto job = inverse::make_job(p, plan, test::shared_context());
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   return job->snapshot();
 }
 double judged(const Json& settings, const char* what = "cost") { return job::scalar(design(settings), "judged", what); }

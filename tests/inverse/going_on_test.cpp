@@ -81,7 +81,7 @@ std::unique_ptr<job::Job> job_of(const preset::Preset& preset)
 
 void finish(job::Job& job)
 {
-  while (!job.finished()) job.step();
+  while (!job.finished()) job.advance();
 }
 
 double cost(job::Job& job, const char* group) { return job::scalar(job.snapshot(), group, "cost"); }

@@ -135,7 +135,7 @@ TEST(ObjectView, ComesWithEverySnapshot)
   ASSERT_TRUE(first.in_view);
   EXPECT_EQ(first.in_view->width, 60);
   EXPECT_EQ(job->snapshot().in_view, first.in_view); // nothing has changed
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   const job::Snapshot last = job->snapshot();
   EXPECT_NE(last.in_view->rgb, first.in_view->rgb);
   EXPECT_NE(last.in_view->rgb, last.picture->rgb);

@@ -178,7 +178,7 @@ TEST(BestPossible, IsAsSoftAsTheLightOfAFacet)
                                           "p.json");
   settings(p).scatter_deg = glm::degrees(std::atan(0.02));
   const auto job = make_job(p, make_plan(p), test::shared_context());
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   const double found = job::scalar(job->snapshot(), "believed", "rel_l2"), possible = cost_of(target, best, 1).rel_l2;
   EXPECT_GT(possible, 0.1);
   EXPECT_GT(found, 0.7 * possible);
@@ -237,7 +237,7 @@ TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide)
                                                     "p.json");
       const InversePlan plan = make_plan(p);
       const auto job = make_job(p, plan, test::shared_context());
-      while (!job->finished()) job->step();
+      while (!job->finished()) job->advance();
       const double deep = job::scalar(job->snapshot(), "object", "relief_mm");
       EXPECT_NEAR(estimated_relief(plan.layout, plan.targets[0]) / deep, 1, 0.1) << light << outline;
     }
@@ -269,7 +269,7 @@ TEST_F(PictureNotes, ALensIsAsDeepAsTheySay)
   EXPECT_THAT(plan.notes,
               Contains(HasSubstr(fmt::format("the lens becomes some {:.2g} mm deep, and the object is 4 mm thick", estimated))));
   const auto job = make_job(p, plan, test::shared_context());
-  while (job->progress().step < 40 && !job->finished()) job->step();
+  while (job->progress().step < 40 && !job->finished()) job->advance();
   const job::Snapshot made = job->snapshot();
   const auto slopes = std::ranges::find(made.pictures, "slopes", &job::NamedPicture::name)->picture;
   double low = 0, high = 0;

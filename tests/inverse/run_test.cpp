@@ -212,7 +212,7 @@ TEST(InversePresets, AreDesignedAndJudged)
     const inverse::InversePlan plan = inverse::make_plan(p);
     const auto job = inverse::make_job(p, plan, test::shared_context());
     const double before = job::scalar(job->snapshot(), "believed", "rel_l2");
-    while (!job->finished()) job->step();
+    while (!job->finished()) job->advance();
     const job::Snapshot made = job->snapshot();
     EXPECT_LT(job::scalar(made, "judged", "rel_l2"), before);
     EXPECT_NEAR(job::scalar(made, "light", "sent") + job::scalar(made, "light", "reflected") + job::scalar(made, "light", "lost"), 1, 1e-4);

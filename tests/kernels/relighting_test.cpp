@@ -161,10 +161,10 @@ TEST(Relighting, TheRunGoesOnUnderTheNewLightAndItsEnergyIsThatLights)
   other.scene.lights[0].power_w = 1e6;
   other.scene.lights[1].power_w = 2e6;
   const auto job = job_of(layered(tiled_scene()));
-  while (job->progress().step < 3) job->step();
+  while (job->progress().step < 3) job->advance();
   ASSERT_TRUE(job->adopt(other));
   EXPECT_EQ(photons::energy_of(job->snapshot()).emitted_w, 0) << "nothing has been sent under the new light yet";
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   preset::Preset fresh = other;
   spectral::settings(fresh).relight = false;
   const job::Snapshot relit = job->snapshot(), truth = render(fresh);
@@ -191,7 +191,7 @@ TEST(Relighting, TheDrawOfTheErrorHasThePicturesScatter)
   for (int i = 0; i < runs; ++i) {
     p.seed = other.seed = static_cast<std::uint64_t>(i) + 1;
     const auto job = job_of(p);
-    while (job->progress().step < 2) job->step();
+    while (job->progress().step < 2) job->advance();
     ASSERT_TRUE(job->adopt(other));
     const job::Snapshot snapshot = render(*job);
     ASSERT_FALSE(snapshot.picture->error_draw.empty());
@@ -213,9 +213,9 @@ TEST(Relighting, ACheckpointGoesOnToTheSameBits)
   preset::Preset other = own;
   other.scene.lights[1].power_w = 5;
   const auto straight = job_of(own);
-  while (straight->progress().step < 2) straight->step();
+  while (straight->progress().step < 2) straight->advance();
   ASSERT_TRUE(straight->adopt(other));
-  straight->step();
+  straight->advance();
   const std::vector<std::byte> saved = test::saved(*straight);
   const auto resumed = job_of(other);
   test::load(*resumed, saved);
@@ -234,7 +234,7 @@ TEST(Relighting, OnlyTheLightIsAdopted)
   EXPECT_FALSE(job_of(tiled_scene())->adopt(tiled_scene())) << "without layers there is nothing to weigh";
   broken.scene.lights[0].spectrum.illuminant = "D66";
   EXPECT_THROW(job->adopt(broken), Error);
-  while (job->progress().step < 1) job->step();
+  while (job->progress().step < 1) job->advance();
   EXPECT_EQ(photons::energy_of(job->snapshot()).refused_contributions, 0u);
 }
 
@@ -260,7 +260,7 @@ TEST(Relighting, ThePlanSaysWhatIsKeptAndTheMemory)
   for (const plan::PlannedBuffer& b : plan.buffers)
     if (b.name.starts_with("film ")) films += b.bytes;
   EXPECT_LE(test::saved(*job).size(), 65536u) << "a film that nothing was added to takes no room";
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   const std::size_t saved = test::saved(*job).size();
   EXPECT_LE(saved, films + 65536);
   EXPECT_GE(saved, films / 3) << "what is promised is not far above what is taken";

@@ -248,7 +248,7 @@ TEST(EnvironmentLight, ARunThatIsResumedHasTheSameBits)
   const job::Snapshot straight = render_as_it_is(p);
   for (const int steps : {3, 29}) {
     const auto first = job_as_it_is(p);
-    for (int step = 0; step < steps && !first->finished(); ++step) first->step();
+    for (int step = 0; step < steps && !first->finished(); ++step) first->advance();
     const std::vector<std::byte> state = saved(*first);
     const auto second = job_as_it_is(p);
     EXPECT_TRUE(load(*second, state));

@@ -152,7 +152,7 @@ Outcome relit(double own_w, double other_w, Method method, double most = 1e-6)
   const job::Snapshot truth = render(p);
   p.scene.lights[0].power_w = own_w;
   const auto job = job_of(p);
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   p.scene.lights[0].power_w = other_w;
   EXPECT_TRUE(job->adopt(p));
   const job::Snapshot gave = job->snapshot();

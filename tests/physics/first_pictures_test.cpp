@@ -38,14 +38,14 @@ TEST(FirstPictures, AreWholeAndGetBetter)
   const auto job = test::job_as_it_is(p);
   std::vector<double> errors;
   for (int look = 0; look < 2; ++look) {
-    job->step();
+    job->advance();
     const job::Snapshot first = job->snapshot();
     EXPECT_TRUE(first.progress.whole);
     EXPECT_EQ(first.progress.step, 0);
     EXPECT_LT(first.progress.work, 60'000u) << "of 262,144 photons";
     errors.push_back(error_of(*first.picture, *truth.picture));
   }
-  while (job->progress().step < 1) job->step();
+  while (job->progress().step < 1) job->advance();
   errors.push_back(error_of(*job->snapshot().picture, *truth.picture));
   for (std::size_t i = 1; i < errors.size(); ++i) EXPECT_LT(errors[i], errors[i - 1]) << i;
   EXPECT_LT(errors[0], 0.6);
@@ -58,7 +58,7 @@ TEST(FirstPictures, ARunMayHaveNoPhotonsForThem)
   preset::Preset p = seen_through_glass();
   spectral::settings(p).photons_per_pass = 1024;
   const auto job = test::job_as_it_is(p);
-  job->step();
+  job->advance();
   EXPECT_TRUE(job->snapshot().progress.whole);
   EXPECT_EQ(job->progress().work, 0u);
 }

@@ -256,7 +256,7 @@ TEST(Indirect, HasTheSameBitsWhenItIsResumed)
   const preset::Preset p = open_room(temporary.path());
   const job::Snapshot whole = render(p);
   auto job = job_as_it_is(p);
-  for (int i = 0; i < 5; ++i) job->step();
+  for (int i = 0; i < 5; ++i) job->advance();
   const std::vector<std::byte> state = test::saved(*job);
   job = job_as_it_is(p);
   test::load(*job, state);

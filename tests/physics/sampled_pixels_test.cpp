@@ -104,7 +104,7 @@ TEST(SampledPixelsResumed, HaveTheirBits)
 {
   const preset::Preset preset = ball(photons::Settings::Effort::automatic, 12);
   const auto whole = test::job_as_it_is(preset), stopped = test::job_as_it_is(preset), resumed = test::job_as_it_is(preset);
-  for (int step = 0; step < 23; ++step) stopped->step(); // after samples were shared out, and in the middle of a pass
+  for (int step = 0; step < 23; ++step) stopped->advance(); // after samples were shared out, and in the middle of a pass
   ASSERT_TRUE(test::load(*resumed, test::saved(*stopped)));
   EXPECT_EQ(test::render(*resumed).picture->rgb, test::render(*whole).picture->rgb);
 }

@@ -195,11 +195,11 @@ TEST(ThroughGlass, ARunThatIsResumedHasTheSameBits)
   const job::Snapshot straight = test::render_as_it_is(whole(20));
   for (const int steps : {1, 17, 40}) { // somewhere in passes before and after what is measured has changed anything
     const auto first = test::job_as_it_is(whole(20));
-    for (int step = 0; step < steps && !first->finished(); ++step) first->step();
+    for (int step = 0; step < steps && !first->finished(); ++step) first->advance();
     const std::vector<std::byte> state = test::saved(*first);
     const auto second = test::job_as_it_is(whole(20));
     EXPECT_TRUE(test::load(*second, state));
-    while (!second->finished()) second->step();
+    while (!second->finished()) second->advance();
     const job::Snapshot resumed = second->snapshot();
     EXPECT_EQ(resumed.picture->rgb, straight.picture->rgb) << steps;
     EXPECT_EQ(resumed.picture->error_draw, straight.picture->error_draw) << steps;

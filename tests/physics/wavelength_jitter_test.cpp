@@ -220,7 +220,7 @@ std::array<double, 3> colour_of(const std::vector<double>& radiance, double whit
 std::unique_ptr<job::Job> finished(const preset::Preset& p)
 {
   auto job = job_of(p);
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   return job;
 }
 

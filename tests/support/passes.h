@@ -23,7 +23,7 @@ inline std::vector<Estimate> step_passes(job::Job& job, const std::function<std:
   std::vector<Estimate> estimates;
   int pass = 0;
   while (!job.finished()) {
-    job.step();
+    job.advance();
     if (job.progress().step == pass) continue;
     const std::vector<double> mean = figures(job);
     last.resize(mean.size(), 0.0);

@@ -57,7 +57,7 @@ inline std::unique_ptr<job::Job> job_of(const preset::Preset& preset, const comp
 
 inline job::Snapshot render(job::Job& job)
 {
-  while (!job.finished()) job.step();
+  while (!job.finished()) job.advance();
   return job.snapshot();
 }
 

@@ -47,7 +47,7 @@ inline std::shared_ptr<job::History> falling_history(int rows, double level = 0.
 class FakeJob : public job::Job {
 public:
   FakeJob(preset::Preset preset, FakeSettings& runs) : preset_(std::move(preset)), runs_(runs) {}
-  void step() override
+  void advance() override
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(runs_.step_ms));
     if (runs_.fails && done_ == 2) throw failed("clEnqueueNDRangeKernel", "the device is gone", "", "start again");

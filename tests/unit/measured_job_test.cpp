@@ -18,7 +18,7 @@ class NoisyJob final : public job::Job {
 public:
   NoisyJob(int steps, unsigned seed, bool halves = true) : steps_(steps), random_(seed), halves_(halves), sums_{zeros(), zeros()} {}
 
-  void step() override
+  void advance() override
   {
     std::normal_distribution<double> noise(0, sigma);
     for (double& sum : sums_[done_ % 2]) sum += grey + noise(random_);
@@ -83,7 +83,7 @@ std::unique_ptr<job::Job> noisy(const preset::Preset& preset, std::shared_ptr<co
 
 job::History run(job::Job& job)
 {
-  while (!job.finished()) job.step();
+  while (!job.finished()) job.advance();
   return *job.snapshot().history;
 }
 
@@ -132,7 +132,7 @@ TEST(MeasuredJob, NothingToMeasureIsNoHistory)
   preset::Preset preset = settings();
   preset.measure.estimate = false;
   const auto job = noisy(preset, nullptr, 20);
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   EXPECT_EQ(job->snapshot().history, nullptr);
   EXPECT_EQ(job->history(), nullptr);
   EXPECT_EQ(job->progress().step, 20);
@@ -160,14 +160,14 @@ TEST(MeasuredJob, ProgressLooksAheadToTheError)
   preset.stop.metric = preset::Stop::Metric::mse;
   preset.stop.error = sigma * sigma / 100;
   const auto job = noisy(preset, truth(), 100000);
-  while (job->progress().step < 50) job->step();
+  while (job->progress().step < 50) job->advance();
   EXPECT_NEAR(job->progress().fraction, 0.5, 0.06);
 }
 
 TEST(MeasuredJob, ASavedJobGoesOnWithItsHistory)
 {
   const auto whole = noisy(settings(), truth());
-  while (whole->progress().step < 100) whole->step();
+  while (whole->progress().step < 100) whole->advance();
   const std::vector<std::byte> saved = test::saved(*whole);
   const job::History before = *whole->history();
 
@@ -188,7 +188,7 @@ TEST(MeasuredJob, ASavedJobGoesOnWithItsHistory)
 TEST(MeasuredJob, AResumedRunMayHaveGotAReference)
 {
   const auto without = noisy(settings(), nullptr);
-  while (without->progress().step < 100) without->step();
+  while (without->progress().step < 100) without->advance();
   const auto with = noisy(settings(), truth());
   test::load(*with, test::saved(*without));
   const job::History history = *with->history();

@@ -30,7 +30,7 @@ public:
       : seed_(seed), entered_(entered), let_go_(std::move(let_go))
   {
   }
-  void step() override { std::this_thread::sleep_for(2ms); }
+  void advance() override { std::this_thread::sleep_for(2ms); }
   bool finished() const override { return false; }
   Progress progress() const override { return {}; }
   Snapshot snapshot() override

@@ -21,7 +21,7 @@ public:
   {
     if (alive_) --*alive_;
   }
-  void step() override
+  void advance() override
   {
     ++count_;
     std::this_thread::sleep_for(200us);
@@ -253,7 +253,7 @@ TEST(Worker, PausesAndGoesOn)
 class FailingJob : public CountingJob {
 public:
   FailingJob() : CountingJob(endless) {}
-  void step() override
+  void advance() override
   {
     if (++count_ == 3) throw failed("trace.cl", "out of registers");
   }
@@ -276,7 +276,7 @@ TEST(Worker, ReadersNeverWaitForAStep)
   class HeldJob : public CountingJob {
   public:
     explicit HeldJob(std::future<void> let_go) : CountingJob(1), let_go_(std::move(let_go)) {}
-    void step() override
+    void advance() override
     {
       let_go_.wait();
       ++count_;

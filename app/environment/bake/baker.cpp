@@ -86,15 +86,15 @@ std::size_t Baker::at_once() const
   return std::min(static_cast<std::size_t>(world_.context.communicator().size()), wanted_ - bake_.baked.size());
 }
 
-void Baker::step()
+void Baker::advance()
 {
   const Communicator& communicator = world_.context.communicator();
   const auto count = static_cast<std::uint32_t>(
-      std::clamp<std::int64_t>(std::llround(photons_a_step_.amount(communicator)), 1, std::int64_t{task_.photons} - sent_));
+      std::clamp<std::int64_t>(std::llround(photons_a_slice_.amount(communicator)), 1, std::int64_t{task_.photons} - sent_));
   const auto rank = static_cast<std::size_t>(communicator.rank()), number = bake_.baked.size() + rank;
   // The light of the tables has power_unit W/m^2 as its unit.
   const auto scale = static_cast<float>(quanta_of_photon / watts_ * task_.tables.power_unit);
-  photons_a_step_.timed(count, [&] {
+  photons_a_slice_.timed(count, [&] {
     if (rank >= at_once()) return;
     world_.run_photons(kernel_, count,
                        {{"targets", world_.buffers.targets},

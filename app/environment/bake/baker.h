@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bakes on a device: photons direction after direction, in steps of about 30 ms (kernels/environment/bake.cl).
+// Bakes on a device: photons direction after direction, in slices of about 30 ms (kernels/environment/bake.cl).
 #pragma once
 #include "environment/bake/bake.h"
 #include "environment/bake/caster.h"
 #include "scene/bvh.h"
 #include "tracing/scene_tables.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 #include "tracing/world.h"
 
 #include <chrono>
@@ -53,7 +53,7 @@ public:
   Baker(const BakeTask& task, const compute::Context& context, std::size_t wanted = ~std::size_t{0});
 
   /// Photons of the direction in hand; with its last ones the direction is added to the bake. With several ranks, of a direction for each rank.
-  void step();
+  void advance();
   bool finished() const { return bake_.baked.size() == task_.directions.size(); }
   /// Of the direction in hand, 0..1.
   double part() const { return static_cast<double>(sent_) / task_.photons; }
@@ -83,7 +83,7 @@ private:
   compute::Buffer<float> radii_;
   compute::Buffer<std::int64_t> film_, energy_; ///< [sphere][texel][channels, then x, y and z of the way]
   compute::Kernel kernel_;
-  tracing::StepSize photons_a_step_{8192};
+  tracing::SliceSize photons_a_slice_{8192};
   Bake bake_;
   std::uint32_t sent_ = 0;                                                         ///< of each direction in hand
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(); ///< with the direction in hand

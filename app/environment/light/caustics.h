@@ -6,7 +6,7 @@
 #include "environment/light/distant_lights.h"
 #include "environment/settings.h"
 #include "kernels/environment/render_types.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 
 #include <cstddef>
 #include <cstdint>

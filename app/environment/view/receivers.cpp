@@ -81,9 +81,9 @@ bool Receivers::cast(const std::function<void(const CastTexels&)>& light)
 {
   if (lit_ == known_) return true;
   const Communicator& communicator = context_.communicator();
-  const auto count = std::clamp<std::int64_t>(std::llround(texels_a_step_.amount(communicator)), 1, static_cast<std::int64_t>(known_ - lit_));
+  const auto count = std::clamp<std::int64_t>(std::llround(texels_a_slice_.amount(communicator)), 1, static_cast<std::int64_t>(known_ - lit_));
   const Partition partition(communicator, static_cast<std::int64_t>(known_ - shared_));
-  texels_a_step_.timed(static_cast<double>(count), [&] {
+  texels_a_slice_.timed(static_cast<double>(count), [&] {
     partition.for_own(static_cast<std::int64_t>(lit_ - shared_), count, [&](std::int64_t first, std::int64_t own) {
       light({&list_, static_cast<std::uint32_t>(shared_) + static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own), &distances_,
              &normals_, &caustics_, size_});

@@ -39,7 +39,7 @@ public:
   void find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
   /// Works out the distances of all texels.
   void find_all(std::optional<Surroundings>& surroundings, const glm::dvec3& middle);
-  /// One step of about 30 ms of light on texels that lack it: of those that `light` gets. True when all have theirs.
+  /// One slice of about 30 ms of light on texels that lack it: of those that `light` gets. True when all have theirs.
   bool cast(const std::function<void(const CastTexels&)>& light);
 
   /// All is out of date: light has changed, or the object or what stands around it has moved.
@@ -57,7 +57,7 @@ private:
   std::vector<int> states_read_;
   std::vector<std::uint32_t> list_on_host_;
   std::size_t known_ = 0, lit_ = 0, shared_ = 0; ///< of the list; shared: lit, and known to all ranks
-  tracing::StepSize texels_a_step_{4096};
+  tracing::SliceSize texels_a_slice_{4096};
 };
 
 } // namespace nephroid::environment

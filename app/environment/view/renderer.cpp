@@ -47,7 +47,7 @@ Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const comp
       texels_(compute::Buffer(context, "environment", backdrop(*task_.scene).rgb)),
       texels_size_(tracing::picture_size(backdrop(*task_.scene))),
       ends_(context, "ends of paths", ends_of_pixel(task_) * static_cast<std::size_t>(pixels())), coarse_(context, coarse_receivers),
-      fine_(context, fine_receivers), see_steps_(pixels(), 8192), shade_steps_(pixels(), 8192), volume_steps_(pixels(), 8192)
+      fine_(context, fine_receivers), see_slices_(pixels(), 8192), shade_slices_(pixels(), 8192), volume_slices_(pixels(), 8192)
 {
   for (compute::Buffer<float>& sums : sums_)
     sums = compute::Buffer<float>(context, "picture", 3 * layer_names.size() * static_cast<std::size_t>(pixels()));
@@ -127,7 +127,7 @@ void Renderer::begin_anew()
   pass_ = 0;
   stage_ = Stage::see;
   shaded_ = false;
-  see_steps_ = shade_steps_ = volume_steps_ = tracing::PixelSteps(pixels(), 8192);
+  see_slices_ = shade_slices_ = volume_slices_ = tracing::PixelSlices(pixels(), 8192);
   const auto across = [](int n) { return (n + block_of_coarse - 1) / block_of_coarse; };
   const auto blocks = static_cast<std::uint32_t>(across(task_.tables.camera.width) * across(task_.tables.camera.height));
   see(coarse_, block_of_coarse, 0, blocks);
@@ -164,11 +164,11 @@ bool Renderer::cast(Receivers& receivers)
   });
 }
 
-void Renderer::step()
+void Renderer::advance()
 {
   switch (stage_) {
   case Stage::see:
-    if (!see_steps_.step(context_.communicator(), pixels(), pixels(),
+    if (!see_slices_.advance(context_.communicator(), pixels(), pixels(),
                          [&](std::uint32_t first, std::uint32_t count) { see(fine_, 1, first, count); }))
       return;
     fine_.find_wanted(surroundings_, task_.placement.middle);
@@ -178,7 +178,7 @@ void Renderer::step()
     if (cast(fine_)) stage_ = Stage::shade;
     return;
   case Stage::shade:
-    if (!shade_steps_.step(context_.communicator(), pixels(), pixels(),
+    if (!shade_slices_.advance(context_.communicator(), pixels(), pixels(),
                            [&](std::uint32_t first, std::uint32_t count) { shade(fine_, 1, first, count); }))
       return;
     shaded_ = true;
@@ -192,7 +192,7 @@ void Renderer::step()
     stage_ = Stage::volume;
     return;
   case Stage::volume:
-    if (volume_steps_.step(context_.communicator(), pixels(), pixels(),
+    if (volume_slices_.advance(context_.communicator(), pixels(), pixels(),
                            [&](std::uint32_t first, std::uint32_t count) { scatter(1, first, count); }))
       end_pass();
   }
@@ -207,7 +207,7 @@ void Renderer::end_pass()
 
 double Renderer::part() const
 {
-  const double done = (stage_ == Stage::see ? see_steps_.part() : 1) + (shaded_ ? 1 : shade_steps_.part()) + volume_steps_.part();
+  const double done = (stage_ == Stage::see ? see_slices_.part() : 1) + (shaded_ ? 1 : shade_slices_.part()) + volume_slices_.part();
   return done / (scatters() ? 3 : 2);
 }
 
@@ -312,10 +312,10 @@ std::vector<Renderer::Layer> Renderer::layers() const
     });
     return result;
   };
-  const std::size_t shaded = shaded_ ? values / 3 : static_cast<std::size_t>(shade_steps_.done());
+  const std::size_t shaded = shaded_ ? values / 3 : static_cast<std::size_t>(shade_slices_.done());
   std::vector<Layer> result;
   for (std::size_t l = 0; l < layer_names.size(); ++l) result.push_back(layer(layer_names[l], sums_, values * l, shaded));
-  if (task_.has_medium) result.push_back(layer("volume", volume_sums_, 0, static_cast<std::size_t>(volume_steps_.done())));
+  if (task_.has_medium) result.push_back(layer("volume", volume_sums_, 0, static_cast<std::size_t>(volume_slices_.done())));
   return result;
 }
 
@@ -381,8 +381,8 @@ void Renderer::state(tracing::State& state)
 {
   state.value(pass_);
   state.value(shaded_);
-  shade_steps_.state(state);
-  volume_steps_.state(state);
+  shade_slices_.state(state);
+  volume_slices_.state(state);
   for (const std::size_t half : {0, 1}) {
     state.owned(sums_[half], own_pixels(), 3);
     if (task_.has_medium) state.owned(volume_sums_[half], own_pixels(), 3);
@@ -390,7 +390,7 @@ void Renderer::state(tracing::State& state)
   if (!state.is_read()) return;
   // The ends of the pass in hand are found again, and the pixels that have had theirs are not shaded again.
   stage_ = shaded_ ? Stage::compile_air : Stage::see;
-  see_steps_ = tracing::PixelSteps(pixels(), 8192);
+  see_slices_ = tracing::PixelSlices(pixels(), 8192);
 }
 
 } // namespace nephroid::environment

@@ -9,7 +9,7 @@
 #include "environment/view/render_task.h"
 #include "job/job.h"
 #include "tracing/state.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 
 #include <array>
 #include <cstdint>
@@ -36,8 +36,8 @@ public:
 
   /// Builds a tree where objects have moved in the last one: for many passes, not for a coarse picture.
   void renew_tree();
-  /// One step of about 30 ms of the pass in hand.
-  void step();
+  /// One slice of about 30 ms of the pass in hand.
+  void advance();
   std::int64_t passes() const { return pass_; } ///< complete ones
   double part() const;                          ///< of the pass in hand, 0..1
   /// Means of all samples so far, linear sRGB over white, [pixel][3].
@@ -116,7 +116,7 @@ private:
   std::int64_t pass_ = 0;
   Stage stage_ = Stage::see;
   bool shaded_ = false; ///< all pixels, in the pass in hand
-  tracing::PixelSteps see_steps_, shade_steps_, volume_steps_;
+  tracing::PixelSlices see_slices_, shade_slices_, volume_slices_;
 };
 
 } // namespace nephroid::environment

@@ -3,7 +3,7 @@
 #pragma once
 #include "kernels/photons/photon_map_types.h"
 #include "photons/tables/device_world.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -18,7 +18,7 @@ public:
       : world_(world), begin_(pixels == Pixels::all ? 0 : world.pixels.count),
         size_(pixels == Pixels::all ? world.pixels.count : static_cast<std::uint32_t>(world.pixels.glass.size())),
         points_(world.context, "visible points", point_count(world.tables.camera)),
-        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")), steps_(size_, 1024)
+        view_(compute::Program(world.context, "photons/view.cl", world.defines).kernel("view")), slices_(size_, 1024)
   {
   }
   /// What it takes on the device.
@@ -31,10 +31,10 @@ public:
   /// The paths of each of the next pixels, one after the other: gather(first, count) queues kernels for each; first: in
   /// DeviceWorld::pixels. cluster: see view.cl. True when all pixels are done.
   template <class Gather>
-  bool step(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather)
+  bool advance(shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster, const Gather& gather)
   {
     if (size_ == 0) return true;
-    return steps_.step(world_.context.communicator(), size_, static_cast<std::int64_t>(points_.size()),
+    return slices_.advance(world_.context.communicator(), size_, static_cast<std::int64_t>(points_.size()),
                        [&](std::uint32_t done, std::uint32_t count) {
                          const std::uint32_t first = begin_ + done;
                          for (std::uint32_t path = 0; path < paths.count; ++path) {
@@ -50,12 +50,12 @@ public:
   void warm_up() { look(world_.tables.camera, world_.seed, 0, {}, 0, world_.pixels.on_device, 0, 0); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
-  double part() const { return steps_.part(); }
+  double part() const { return slices_.part(); }
   /// How many pixels of the pass in hand are done, of size().
-  std::int64_t done() const { return steps_.done(); }
+  std::int64_t done() const { return slices_.done(); }
   std::uint32_t size() const { return size_; }
 
-  void state(tracing::State& state) { steps_.state(state); }
+  void state(tracing::State& state) { slices_.state(state); }
 
   /// Queues the next path of each of `count` of the camera's pixels, into points().
   void look(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster,
@@ -88,7 +88,7 @@ private:
   std::uint32_t begin_, size_; ///< of the pixels in DeviceWorld::pixels
   compute::Buffer<shared::VisiblePoint> points_;
   compute::Kernel view_;
-  tracing::PixelSteps steps_;
+  tracing::PixelSlices slices_;
 };
 
 } // namespace nephroid::photons

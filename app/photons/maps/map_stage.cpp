@@ -76,14 +76,14 @@ public:
     tracing::add_layer("caustic", {first_film_.read_sum(), scale, [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
   }
 
-  bool step(std::int64_t pass) override
+  bool advance(std::int64_t pass) override
   {
     const double radius = first_radius_ * map_radius_factor(pass, alpha_);
     if (sorted_pass_ != pass) map_.build(radius, world_.tables.photons_per_pass());
     sorted_pass_ = pass;
     const auto number = static_cast<std::uint32_t>(pass);
     const EyePaths::Paths paths{paths_, before_[0] + before_[1], before_[number % 2]};
-    const bool complete = eye_.step(world_.seed, number, paths, -1, [&](std::uint32_t first, std::uint32_t count) {
+    const bool complete = eye_.advance(world_.seed, number, paths, -1, [&](std::uint32_t first, std::uint32_t count) {
       gather(film_, world_.pixels.count, number, radius, world_.tables.rounds, world_.pixels.on_device, first, count);
     });
     if (complete) before_[number % 2] += paths_;

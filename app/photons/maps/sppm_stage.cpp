@@ -9,7 +9,7 @@
 #include "photons/maps/photon_map.h"
 #include "photons/stage.h"
 #include "tracing/scales.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 
 #include <fmt/format.h>
 
@@ -72,7 +72,7 @@ public:
     gather_photons(eye_.points(), 0, 0, 0, 1);
   }
 
-  bool step(std::int64_t pass) override
+  bool advance(std::int64_t pass) override
   {
     to_next_turn(pass);
     if (at_.cluster < cluster_count()) {
@@ -219,7 +219,7 @@ private:
     return {{world_.context, "emitters of a cluster", emitters}, static_cast<int>(emitters.size()), photon_scale(photons_, weights)};
   }
 
-  void send_photons(std::int64_t pass, const tracing::Slice& slice)
+  void send_photons(std::int64_t pass, const tracing::PhotonSlice& slice)
   {
     const int cluster = std::min(at_.cluster, cluster_count() - 1);
     const Sender& sender = senders_[static_cast<std::size_t>(cluster)];
@@ -264,7 +264,7 @@ private:
   bool send(std::int64_t pass)
   {
     if (slices_.at_start()) map_.stored().fill_zero(); // each photon is one rank's to store
-    return slices_.step(world_.context.communicator(), photons_, [&](const tracing::Slice& slice) { send_photons(pass, slice); });
+    return slices_.advance(world_.context.communicator(), photons_, [&](const tracing::PhotonSlice& slice) { send_photons(pass, slice); });
   }
 
   bool gather(std::int64_t pass)
@@ -273,7 +273,7 @@ private:
     // Pixels without photons keep the first radius, and a search may be as wide as 3 cells.
     if (!sorted_) map_.build(std::max(first_radius_ * map_radius_factor(iteration, alpha_), 0.34 * first_radius_), photons_);
     sorted_ = true;
-    return eye_.step(
+    return eye_.advance(
         seed_of(at_.cluster), static_cast<std::uint32_t>(iteration), {1, static_cast<std::uint32_t>(iteration), 0}, at_.cluster,
         [&](std::uint32_t first_pixel, std::uint32_t count) { gather_photons(eye_.points(), first_pixel, count, at_.cluster, count); });
   }

@@ -3,7 +3,7 @@
 #include "photons/relight/layer_film.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 
 #include <cmath>
 #include <utility>
@@ -28,11 +28,11 @@ public:
   std::int64_t passes() const override { return pixel_samples_; }
   double part() const override { return rows_.part(); }
 
-  bool step(std::int64_t pass) override
+  bool advance(std::int64_t pass) override
   {
     if (std::exchange(chosen_for_, relighting_.changes) != relighting_.changes)
       cluster_cdf_.write(layer_cluster_cdf(relighting_.light, world_.tables.wavelengths));
-    return rows_.step(world_.context.communicator(), world_.tables.camera.height, world_.tables.camera.height,
+    return rows_.advance(world_.context.communicator(), world_.tables.camera.height, world_.tables.camera.height,
                       [&](std::uint32_t first_row, std::uint32_t rows) {
                         const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(world_.tables.camera.width);
                         world_.run(kernel_, pixels, 64,
@@ -123,7 +123,7 @@ private:
   compute::Buffer<float> cluster_cdf_;
   std::uint64_t chosen_for_ = 0; ///< Relighting::changes of the light that cluster_cdf_ is for
   compute::Kernel kernel_;
-  tracing::PixelSteps rows_;
+  tracing::PixelSlices rows_;
 };
 
 PlanPart plan_layered_direct(const PlanInput& input)

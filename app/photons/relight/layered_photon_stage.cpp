@@ -5,7 +5,7 @@
 #include "photons/relight/layer_film.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 
 #include <algorithm>
 
@@ -28,11 +28,11 @@ public:
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_round; }
   bool counts_energy() const override { return true; }
 
-  bool step(std::int64_t pass) override
+  bool advance(std::int64_t pass) override
   {
     take_light(pass);
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
-    const bool complete = slices_.step(world_.context.communicator(), world_.tables.photons_per_round, [&](const tracing::Slice& slice) {
+    const bool complete = slices_.advance(world_.context.communicator(), world_.tables.photons_per_round, [&](const tracing::PhotonSlice& slice) {
       world_.send(kernel_, slice, pass,
                   {{"targets", world_.buffers.targets},
                    {"emitters", world_.emitters},

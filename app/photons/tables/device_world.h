@@ -4,7 +4,7 @@
 #include "photons/coarse.h"
 #include "photons/maps/photon_map.h"
 #include "photons/tables/run_tables.h"
-#include "tracing/step_size.h"
+#include "tracing/slices.h"
 #include "tracing/world.h"
 
 #include <cstdint>
@@ -64,7 +64,7 @@ struct DeviceWorld : tracing::World {
     return zeroed("first picture", std::size_t{3} * halves * blocks);
   }
   /// Runs a kernel that sends a slice of the photons of a pass.
-  void send(compute::Kernel& kernel, const tracing::Slice& slice, std::int64_t pass, std::initializer_list<compute::Argument> own)
+  void send(compute::Kernel& kernel, const tracing::PhotonSlice& slice, std::int64_t pass, std::initializer_list<compute::Argument> own)
   {
     run_photons(kernel, slice.count, own,
                 {{"camera", tables.camera},

@@ -92,7 +92,7 @@ std::unique_ptr<job::Job> general_job(const preset::Preset& preset, tracing::Lea
 job::Snapshot render(const preset::Preset& preset, const compute::Context& context, const ChangeScene& change)
 {
   const auto job = general_job(preset, {}, context, change);
-  while (!job->finished()) job->step();
+  while (!job->finished()) job->advance();
   return job->snapshot();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels, rows or photons of a pass in steps of about 30 ms.
+// The pixels, rows or photons of a pass in slices of about 30 ms.
 #pragma once
 #include "base/communicator.h"
 #include "tracing/state.h"
@@ -12,9 +12,9 @@
 namespace nephroid::tracing {
 
 /// How much work fits into a step, learned from the steps before.
-class StepSize {
+class SliceSize {
 public:
-  explicit StepSize(double start) : amount_(start) {}
+  explicit SliceSize(double start) : amount_(start) {}
   /// As rank 0 has learned it.
   double amount(const Communicator& communicator) { return amount_ = communicator.broadcast(amount_); }
   /// Calls work(), which does `amount` of it, and learns from the time it took: a little at a time, because the first step of a kernel also
@@ -26,19 +26,19 @@ public:
     const auto begin = Clock::now();
     work();
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    amount_ = std::clamp(amount * step_seconds / std::max(seconds, 1e-6), 0.25 * amount_, 2 * amount_);
+    amount_ = std::clamp(amount * slice_seconds / std::max(seconds, 1e-6), 0.25 * amount_, 2 * amount_);
   }
 
 private:
-  static constexpr double step_seconds = 0.03;
+  static constexpr double slice_seconds = 0.03;
   double amount_;
 };
 
 /// The pixels of a pass, or its rows.
-class PixelSteps {
+class PixelSlices {
 public:
-  /// size: how many a pass has to begin with. first_step: how many the first step has.
-  PixelSteps(std::int64_t size, std::int64_t first_step) : size_(size), amount_(static_cast<double>(first_step)) {}
+  /// size: how many a pass has to begin with. first_slice: how many the first step has.
+  PixelSlices(std::int64_t size, std::int64_t first_slice) : size_(size), amount_(static_cast<double>(first_slice)) {}
 
   double part() const { return size_ > 0 ? static_cast<double>(done_) / static_cast<double>(size_) : 0; }
   /// Of the pass in hand.
@@ -47,7 +47,7 @@ public:
   /// Calls work(first, count) for the next pixels (or rows) of the pass in hand, which has `size`; at most `most` at a time, and of these
   /// for what is this rank's (Partition). True when the pass is complete.
   template <class Work>
-  bool step(const Communicator& communicator, std::int64_t size, std::int64_t most, const Work& work)
+  bool advance(const Communicator& communicator, std::int64_t size, std::int64_t most, const Work& work)
   {
     size_ = size;
     const auto count = std::clamp<std::int64_t>(std::llround(amount_.amount(communicator)), 1, std::min(most, size - done_));
@@ -70,11 +70,11 @@ public:
 
 private:
   std::int64_t size_, done_ = 0;
-  StepSize amount_;
+  SliceSize amount_;
 };
 
 /// Of the photons of a pass: `offset`, offset + stride, ..., `count` of them.
-struct Slice {
+struct PhotonSlice {
   std::uint32_t offset = 0, stride = 1, count = 0;
 };
 
@@ -92,14 +92,14 @@ public:
 
   /// Calls work(slice) for the next of `photons` photons, of which each rank has some. True when the pass is complete.
   template <class Work>
-  bool step(const Communicator& communicator, std::uint32_t photons, const Work& work)
+  bool advance(const Communicator& communicator, std::uint32_t photons, const Work& work)
   {
-    const double amount = photons_a_step_.amount(communicator);
+    const double amount = photons_a_slice_.amount(communicator);
     if (at_start()) at_.slices = static_cast<std::uint32_t>(std::clamp<std::int64_t>(std::llround(photons / amount), 1, photons));
     const std::uint32_t count = (photons - at_.slice + at_.slices - 1) / at_.slices;
     const auto rank = static_cast<std::uint32_t>(communicator.rank()), ranks = static_cast<std::uint32_t>(communicator.size());
-    photons_a_step_.timed(count, [&] {
-      if (rank < count) work(Slice{at_.slice + rank * at_.slices, ranks * at_.slices, (count - rank + ranks - 1) / ranks});
+    photons_a_slice_.timed(count, [&] {
+      if (rank < count) work(PhotonSlice{at_.slice + rank * at_.slices, ranks * at_.slices, (count - rank + ranks - 1) / ranks});
     });
     if (++at_.slice < at_.slices) return false;
     at_ = {};
@@ -113,7 +113,7 @@ private:
     std::uint32_t slice = 0, slices = 1;
   };
   Position at_;
-  StepSize photons_a_step_{4096};
+  SliceSize photons_a_slice_{4096};
 };
 
 } // namespace nephroid::tracing
