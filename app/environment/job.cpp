@@ -71,7 +71,7 @@ public:
     if (render_) {
       p.step = passes();
       p.steps = passes_;
-      const double seen = renderer_ ? static_cast<double>(renderer_->passes()) + renderer_->part() : 0;
+      const double seen = renderer_ ? static_cast<double>(renderer_->passes()) + renderer_->fraction_done() : 0;
       p.work = photons_ ? photons_->progress().work : static_cast<std::uint64_t>(seen * width_ * height_);
       if (!refines()) p.units = {.step = "pass", .steps = "passes", .work = "path", .works = "paths"};
       const double sent = photons_ ? photon_passes() : seen;
@@ -279,7 +279,7 @@ private:
   /// 0..1
   double baked_part() const
   {
-    return bake_ ? 1.0 : (static_cast<double>(directions_done()) + baker_->part()) / static_cast<double>(task_->directions.size());
+    return bake_ ? 1.0 : (static_cast<double>(directions_done()) + baker_->fraction_done()) / static_cast<double>(task_->directions.size());
   }
 
   void bake()

@@ -68,7 +68,7 @@ public:
     p.steps = judge_ ? p.step : most_steps() ? began_.steps + *most_steps() : -1;
     p.work = method_->tried();
     p.work_seconds = method_seconds_ + judge_seconds_;
-    const double steps = static_cast<double>(p.step - began_.steps) + method_->part();
+    const double steps = static_cast<double>(p.step - began_.steps) + method_->fraction_done();
     const double looked = std::max(most_steps() ? steps / static_cast<double>(*most_steps()) : 0,
                                    preset_.stop.seconds ? looked_for() / std::max(looked_for(), search_seconds()) : 0);
     p.fraction = judge_ ? 1 - judge_part + judge_part * judged_part() : std::min(1.0, looked) * (1 - judge_part);
@@ -156,7 +156,7 @@ private:
     if (!preset_.stop.seconds || method_->steps() == began_.steps) return false; // what is judged has had one step at least
     if (!judge_needs_)
       judge_needs_ = judge_seconds(context_, layout_, triangles_) * (settings(preset_).tolerances ? 1 + Tolerances::count : 1);
-    return context_.communicator().broadcast(looked_for() + (method_->part() == 0 ? last_step_seconds() : 0) >= search_seconds());
+    return context_.communicator().broadcast(looked_for() + (method_->fraction_done() == 0 ? last_step_seconds() : 0) >= search_seconds());
   }
 
   bool had_all_steps() const { return most_steps() && method_->steps() - began_.steps >= *most_steps(); }
@@ -222,7 +222,7 @@ private:
   /// Of the judge's work, each error of the tolerances being as much as the object itself.
   double judged_part() const
   {
-    return tolerances_ ? (judge_->part() + Tolerances::count * tolerances_->part()) / (1 + Tolerances::count) : judge_->part();
+    return tolerances_ ? (judge_->fraction_done() + Tolerances::count * tolerances_->fraction_done()) / (1 + Tolerances::count) : judge_->fraction_done();
   }
 
   /// As judged where that is done, else as believed.
@@ -262,7 +262,7 @@ private:
   std::shared_ptr<const job::Picture> object_picture(const std::vector<std::vector<Captioned>>& columns)
   {
     const preset::Camera camera = view_camera(preset_);
-    const Viewed now{method_->steps(), static_cast<int>(4 * method_->part()), finished(), camera};
+    const Viewed now{method_->steps(), static_cast<int>(4 * method_->fraction_done()), finished(), camera};
     if (in_view_ && now == viewed_) return in_view_;
     viewed_ = now;
     const std::vector<double> heights = method_->heights();

@@ -179,7 +179,7 @@ Judge::Judge(const compute::Context& context, const Layout& layout, const Solid&
   halves_.fill(light_);
 }
 
-double Judge::part() const
+double Judge::fraction_done() const
 {
   const int rounds = std::max(least_rounds, (round_ + 2) / 2 * 2);
   return finished_ ? 1 : (round_ + static_cast<double>(row_) / layout_.facets.y) / rounds;

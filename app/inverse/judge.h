@@ -66,7 +66,7 @@ public:
 
   void advance(); ///< a few rows of facets; light and fates are there once it has finished
   bool finished() const { return finished_; }
-  double part() const; ///< of the rounds that it knows of
+  double fraction_done() const; ///< of the rounds that it knows of
   /// What counts in each cell, in what falls on a facet: luminance of coloured light, else energy.
   const std::vector<double>& light(std::size_t receiver) const { return light_[receiver]; }
   const std::vector<double>& frame(std::size_t i) const { return light_[layout_.distances.size() + i]; } ///< the same of layout.frames

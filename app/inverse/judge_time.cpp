@@ -40,7 +40,7 @@ double judge_seconds(const compute::Context& context, const Layout& layout, std:
     seconds = seconds_from(begin) * static_cast<double>(triangles) / static_cast<double>(solid.mesh.triangles.size());
     begin = now();
     while (!judge.finished() && context.communicator().broadcast(seconds_from(begin) < trial_seconds)) judge.advance();
-    seconds += seconds_from(begin) * static_cast<double>(rays_of(layout)) / (judge.part() * static_cast<double>(rays_of(piece)));
+    seconds += seconds_from(begin) * static_cast<double>(rays_of(layout)) / (judge.fraction_done() * static_cast<double>(rays_of(piece)));
   }
   return reserve * seconds;
 }

@@ -21,7 +21,7 @@ public:
   virtual bool finished() const = 0;
   virtual std::int64_t steps() const = 0;  ///< completed: sweeps, moves
   virtual std::int64_t most() const = 0;   ///< steps that it takes where the preset has no other stop
-  virtual double part() const = 0;         ///< of the slice in hand
+  virtual double fraction_done() const = 0;         ///< of the slice in hand
   virtual std::uint64_t tried() const = 0; ///< facets, of all steps
   virtual job::Units units() const = 0;
 

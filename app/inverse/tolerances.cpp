@@ -92,9 +92,9 @@ Tolerances::Tolerances(const compute::Context& context, const Layout& layout, co
 
 bool Tolerances::finished() const { return rows_.size() == errors.size(); }
 
-double Tolerances::part() const
+double Tolerances::fraction_done() const
 {
-  return (static_cast<double>(rows_.size()) + (judge_ ? judge_->part() : 0)) / static_cast<double>(errors.size());
+  return (static_cast<double>(rows_.size()) + (judge_ ? judge_->fraction_done() : 0)) / static_cast<double>(errors.size());
 }
 
 void Tolerances::begin()

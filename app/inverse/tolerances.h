@@ -21,7 +21,7 @@ public:
   /// A few rows of facets of the judge's.
   void advance();
   bool finished() const;
-  double part() const;
+  double fraction_done() const;
 
   struct Row {
     std::string_view what;

@@ -30,7 +30,7 @@ public:
 
   const char* name() const override { return layer_; }
   std::int64_t passes() const override { return pixels_.passes(); }
-  double part() const override { return pixels_.part(); }
+  double fraction_done() const override { return pixels_.fraction_done(); }
   void share_work(const Noise& noise) override { pixels_.share_work(noise); }
 
   bool advance(std::int64_t pass) override

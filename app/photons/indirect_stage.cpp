@@ -82,7 +82,7 @@ public:
   }
 
   const char* name() const override { return "indirect"; }
-  double part() const override { return slices_.part(); }
+  double fraction_done() const override { return slices_.fraction_done(); }
   std::uint64_t photons_per_pass() const override { return tables_.photons_per_pass; }
 
   bool advance(std::int64_t pass) override
@@ -105,21 +105,21 @@ public:
   /// As large a part of the first pass as photons of caustics have, where a pass has more than a few steps.
   bool look() override
   {
-    const double part_of_pass = static_cast<double>(world_.first.rounds) / world_.tables.rounds;
-    if (tables_.photons_per_pass < 1 << 16 || part() >= part_of_pass) return true;
+    const double fraction_of_pass = static_cast<double>(world_.first.rounds) / world_.tables.rounds;
+    if (tables_.photons_per_pass < 1 << 16 || fraction_done() >= fraction_of_pass) return true;
     advance(0);
     return false;
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : part()); };
+    const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : fraction_done()); };
     tracing::add_layer("indirect", {film_.read_sum(), tables_.film_scale * world_.white, samples}, picture);
   }
 
   void report(std::int64_t passes, bool done, Energy& energy) override
   {
-    const double passes_done = static_cast<double>(passes) + (done ? 1 : part());
+    const double passes_done = static_cast<double>(passes) + (done ? 1 : fraction_done());
     energy.indirect = balance_of(outcome_watts(energy_.read_sum(), tables_.energy_scale, passes_done));
     energy.caustics.refused_contributions += energy.indirect->refused_contributions;
   }

@@ -96,17 +96,17 @@ public:
   void advance() override
   {
     if (looks_ < first_edges_.size()) return look();
-    if (at_.pass == 1 && at_.stage == 0 && !at_.part_of_pass && smooths_seen_ && smoothing_)
+    if (at_.pass == 1 && at_.stage == 0 && !at_.fraction_of_pass && smooths_seen_ && smoothing_)
       timed([&] { smoothing_->pixels().look(); }); // before a picture waits for it
     const auto begin = Clock::now();
-    if (shares_work_ && at_.stage == 0 && !at_.part_of_pass && at_.pass >= 2 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
+    if (shares_work_ && at_.stage == 0 && !at_.fraction_of_pass && at_.pass >= 2 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
     TimedStage& now = stages_[at_.stage];
     const bool complete = at_.pass >= now.stage->passes() || now.stage->advance(at_.pass);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     now.seconds += seconds;
     at_.work_seconds += seconds;
-    at_.part_of_pass = !complete;
+    at_.fraction_of_pass = !complete;
     if (!complete || ++at_.stage < stages_.size()) return;
     at_.stage = 0;
     ++at_.pass;
@@ -120,12 +120,12 @@ public:
     p.step = at_.pass;
     p.steps = passes_;
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      p.work += static_cast<std::uint64_t>((static_cast<double>(at_.pass) + part_of(s)) *
+      p.work += static_cast<std::uint64_t>((static_cast<double>(at_.pass) + fraction_of(s)) *
                                            static_cast<double>(stages_[s].stage->photons_per_pass()));
     p.work_seconds = at_.work_seconds;
     p.whole = at_.pass > 0 || looks_ > 0;
     const double by_seconds = stop_seconds_ ? at_.work_seconds / *stop_seconds_ : 0,
-                 by_passes = passes_ > 0 ? passes_with_part() / static_cast<double>(passes_) : 0;
+                 by_passes = passes_ > 0 ? passes_with_fraction() / static_cast<double>(passes_) : 0;
     p.fraction = finished() ? 1 : std::min(std::max(by_seconds, by_passes), 1.0);
     return p;
   }
@@ -217,7 +217,7 @@ private:
   struct Position {
     std::int64_t pass = 0;     ///< passes completed
     std::size_t stage = 0;     ///< whose turn it is
-    bool part_of_pass = false; ///< whether it has begun
+    bool fraction_of_pass = false; ///< whether it has begun
     double work_seconds = 0;
     double energy_from = 0; ///< rounds of photons when the energy counters began
   };
@@ -378,14 +378,14 @@ private:
   }
 
   /// How much of the pass in hand a stage has done.
-  double part_of(std::size_t stage) const { return stage < at_.stage ? 1 : stage > at_.stage ? 0 : stages_[stage].stage->part(); }
+  double fraction_of(std::size_t stage) const { return stage < at_.stage ? 1 : stage > at_.stage ? 0 : stages_[stage].stage->fraction_done(); }
 
   /// Passes done with the part of the one in hand, in which every stage counts as much.
-  double passes_with_part() const
+  double passes_with_fraction() const
   {
     double part = 0, count = 0;
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (at_.pass < stages_[s].stage->passes()) part += part_of(s), ++count;
+      if (at_.pass < stages_[s].stage->passes()) part += fraction_of(s), ++count;
     return static_cast<double>(at_.pass) + (count > 0 ? part / count : 0);
   }
 
@@ -393,7 +393,7 @@ private:
   double photon_rounds() const
   {
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (stages_[s].stage->counts_energy()) return (static_cast<double>(at_.pass) + part_of(s)) * world_.tables.rounds;
+      if (stages_[s].stage->counts_energy()) return (static_cast<double>(at_.pass) + fraction_of(s)) * world_.tables.rounds;
     return 0;
   }
 

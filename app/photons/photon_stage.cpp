@@ -37,7 +37,7 @@ public:
   }
 
   const char* name() const override { return "photons"; }
-  double part() const override { return (static_cast<double>(round_) + slices_.part()) / world_.tables.rounds; }
+  double fraction_done() const override { return (static_cast<double>(round_) + slices_.fraction_done()) / world_.tables.rounds; }
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
   bool counts_energy() const override { return true; }
 
@@ -84,7 +84,7 @@ public:
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const std::array<double, 2> samples = tracing::halves_of(rounds(passes, done), slices_.part());
+    const std::array<double, 2> samples = tracing::halves_of(rounds(passes, done), slices_.fraction_done());
     tracing::add_layer("caustic",
                        {film_.read_sum(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }}, picture);
   }

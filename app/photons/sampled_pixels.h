@@ -25,7 +25,7 @@ public:
   /// How many passes may have samples.
   std::int64_t passes() const { return passes_; }
   /// Of the pass in hand.
-  double part() const { return static_cast<double>(done_) / static_cast<double>(counts_.size()); }
+  double fraction_done() const { return static_cast<double>(done_) / static_cast<double>(counts_.size()); }
 
   /// Calls work(samples, count) for the next samples of the pass, on the device: x is the pixel, y which of its samples this is. Those with
   /// an even number are of the film's first half, those with an odd one of the second. True when the pass is complete.

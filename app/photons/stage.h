@@ -60,7 +60,7 @@ public:
   /// Adds its layers to the first picture, as develop.
   virtual void develop_first(job::Picture& /*picture*/) {}
   /// How much of the pass in hand is done, 0..1, 0 before its first step and after its last.
-  virtual double part() const = 0;
+  virtual double fraction_done() const = 0;
   /// Adds its layers to the picture, and its error to Picture::error_draw (add_layer in film.h), as the means of `passes` complete passes
   /// and what is done of the one in hand, which has the number `passes`; done: whether it has had its turn in that pass already.
   virtual void develop(std::int64_t passes, bool done, job::Picture& picture) = 0;

@@ -40,7 +40,7 @@ public:
   /// size: how many a pass has to begin with. first_slice: how many the first step has.
   PixelSlices(std::int64_t size, std::int64_t first_slice) : size_(size), amount_(static_cast<double>(first_slice)) {}
 
-  double part() const { return size_ > 0 ? static_cast<double>(done_) / static_cast<double>(size_) : 0; }
+  double fraction_done() const { return size_ > 0 ? static_cast<double>(done_) / static_cast<double>(size_) : 0; }
   /// Of the pass in hand.
   std::int64_t done() const { return done_; }
 
@@ -81,7 +81,7 @@ struct PhotonSlice {
 /// The photons of a pass: slice s of n has the photons s, s + n, s + 2 n, ..., so that each is a fair sample of all.
 class PhotonSlices {
 public:
-  double part() const { return static_cast<double>(at_.slice) / at_.slices; }
+  double fraction_done() const { return static_cast<double>(at_.slice) / at_.slices; }
   /// How many of the photons 0 .. photons - 1 of the pass in hand are done.
   std::uint32_t done_of(std::uint32_t photons) const
   {

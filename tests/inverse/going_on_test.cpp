@@ -35,7 +35,7 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes)
   layout.weights = {1, 3};
   a.relight();
   EXPECT_EQ(a.slopes(), slopes);
-  EXPECT_EQ(a.part(), 0);
+  EXPECT_EQ(a.fraction_done(), 0);
   EXPECT_FALSE(a.finished());
   double residual = 0;
   for (const std::size_t j : {0u, 1u}) {

@@ -118,7 +118,7 @@ void Baker::advance()
 std::optional<double> Baker::seconds_left() const
 {
   if (!seconds_a_direction_) return std::nullopt;
-  return *seconds_a_direction_ * (static_cast<double>(task_.directions.size() - bake_.baked.size()) - part());
+  return *seconds_a_direction_ * (static_cast<double>(task_.directions.size() - bake_.baked.size()) - fraction_done());
 }
 
 void Baker::finish_sphere(std::size_t direction, std::size_t sphere, double scale)

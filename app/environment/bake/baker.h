@@ -56,7 +56,7 @@ public:
   void advance();
   bool finished() const { return bake_.baked.size() == task_.directions.size(); }
   /// Of the direction in hand, 0..1.
-  double part() const { return static_cast<double>(sent_) / task_.photons; }
+  double fraction_done() const { return static_cast<double>(sent_) / task_.photons; }
   /// Until all is baked, if all goes on as it went with the last direction; nothing before the first is done.
   std::optional<double> seconds_left() const;
   /// Sent so far.

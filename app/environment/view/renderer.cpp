@@ -205,9 +205,9 @@ void Renderer::end_pass()
   ++pass_;
 }
 
-double Renderer::part() const
+double Renderer::fraction_done() const
 {
-  const double done = (stage_ == Stage::see ? see_slices_.part() : 1) + (shaded_ ? 1 : shade_slices_.part()) + volume_slices_.part();
+  const double done = (stage_ == Stage::see ? see_slices_.fraction_done() : 1) + (shaded_ ? 1 : shade_slices_.fraction_done()) + volume_slices_.fraction_done();
   return done / (scatters() ? 3 : 2);
 }
 

@@ -39,7 +39,7 @@ public:
   /// One slice of about 30 ms of the pass in hand.
   void advance();
   std::int64_t passes() const { return pass_; } ///< complete ones
-  double part() const;                          ///< of the pass in hand, 0..1
+  double fraction_done() const;                          ///< of the pass in hand, 0..1
   /// Means of all samples so far, linear sRGB over white, [pixel][3].
   struct Layer {
     const char* name = "";

@@ -150,9 +150,9 @@ double Assignment::residual() const
   return weighted_squares(wanted_, weights_, all_light(), layout_.facet_count()) + rough;
 }
 
-double Assignment::part() const
+double Assignment::fraction_done() const
 {
-  return refinement_ ? refinement_->part() : static_cast<double>(next_) / static_cast<double>(layout_.facet_count());
+  return refinement_ ? refinement_->fraction_done() : static_cast<double>(next_) / static_cast<double>(layout_.facet_count());
 }
 
 std::vector<Cost> Assignment::costs() const { return costs_of(targets_, all_light(), light_sent(layout_, slopes())); }

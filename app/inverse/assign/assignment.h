@@ -24,7 +24,7 @@ public:
   bool finished() const override { return refinement_ ? refinement_->finished() : converged_; }
   std::int64_t steps() const override { return sweeps_; }
   std::int64_t most() const override { return preset::default_passes; }
-  double part() const override;
+  double fraction_done() const override;
   std::uint64_t tried() const override { return tried_; }
   job::Units units() const override { return {.step = "sweep", .steps = "sweeps", .work = "facet", .works = "facets"}; }
 

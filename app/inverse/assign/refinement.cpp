@@ -38,7 +38,7 @@ Refinement::Refinement(const Layout& layout, const std::vector<Target>& targets,
 
 bool Refinement::finished() const { return stuck_ || done_ >= most_steps; }
 
-double Refinement::part() const { return static_cast<double>(done_) / static_cast<double>(most_steps); }
+double Refinement::fraction_done() const { return static_cast<double>(done_) / static_cast<double>(most_steps); }
 
 /// The new direction, and how the sum changes along it.
 double Refinement::turn()

@@ -18,7 +18,7 @@ public:
   /// One step along a line; the sum gets smaller, or it is finished.
   void advance(DeviceFacets& facets);
   bool finished() const;
-  double part() const;
+  double fraction_done() const;
 
   void state(State& state);
 

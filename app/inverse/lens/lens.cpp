@@ -283,7 +283,7 @@ void Lens::advance()
   }
 }
 
-double Lens::part() const { return moved_ < moves ? moved_ / static_cast<double>(moves) : 0; }
+double Lens::fraction_done() const { return moved_ < moves ? moved_ / static_cast<double>(moves) : 0; }
 
 std::vector<double> Lens::heights() const
 {

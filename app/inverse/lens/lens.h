@@ -66,7 +66,7 @@ public:
   bool finished() const override { return stale_ >= most_stale; }
   std::int64_t steps() const override { return steps_; }
   std::int64_t most() const override { return 60; }
-  double part() const override;
+  double fraction_done() const override;
   std::uint64_t tried() const override { return static_cast<std::uint64_t>(steps_) * layout_.facet_count(); }
   job::Units units() const override { return {.step = "step", .steps = "steps", .work = "facet", .works = "facets"}; }
 

@@ -98,7 +98,7 @@ public:
   bool finished() const override { return stage_ == Stage::done; }
   std::int64_t steps() const override { return trials_; }
   std::int64_t most() const override { return trials_of(settings_); }
-  double part() const override { return trial_ ? trial_->part() : 0; }
+  double fraction_done() const override { return trial_ ? trial_->fraction_done() : 0; }
   std::uint64_t tried() const override;
   job::Units units() const override { return {.step = "trial", .steps = "trials", .work = "facet", .works = "facets"}; }
 

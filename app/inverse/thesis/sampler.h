@@ -65,7 +65,7 @@ public:
 
   void advance(); ///< some facets
   bool finished() const { return next_ == layout_.facet_count(); }
-  double part() const { return static_cast<double>(next_) / static_cast<double>(layout_.facet_count()); }
+  double fraction_done() const { return static_cast<double>(next_) / static_cast<double>(layout_.facet_count()); }
   std::size_t tried() const { return next_; } ///< facets
   Drawn drawn() const;
 

@@ -50,7 +50,7 @@ public:
   void warm_up() { look(world_.tables.camera, world_.seed, 0, {}, 0, world_.pixels.on_device, 0, 0); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
-  double part() const { return slices_.part(); }
+  double fraction_done() const { return slices_.fraction_done(); }
   /// How many pixels of the pass in hand are done, of size().
   std::int64_t done() const { return slices_.done(); }
   std::uint32_t size() const { return size_; }

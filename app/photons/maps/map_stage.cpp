@@ -29,7 +29,7 @@ public:
   }
 
   const char* name() const override { return "photon maps"; }
-  double part() const override { return eye_.part(); }
+  double fraction_done() const override { return eye_.fraction_done(); }
   void share_work(const Noise& noise) override
   {
     double sum = 0;

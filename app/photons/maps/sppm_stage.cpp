@@ -56,7 +56,7 @@ public:
   }
 
   const char* name() const override { return "photon maps"; }
-  double part() const override { return static_cast<double>(at_.cluster) / cluster_count(); }
+  double fraction_done() const override { return static_cast<double>(at_.cluster) / cluster_count(); }
   std::uint64_t photons_per_pass() const override
   {
     const std::vector<double>& u = world_.tables.importance;
@@ -130,7 +130,7 @@ public:
     for (int run = 0; run < static_cast<int>(runs_.size()); ++run) {
       const bool in_hand = !done && (random_ || run == at_.cluster);
       const bool had = done || (!random_ && run < at_.cluster) || (in_hand && at_.sent);
-      const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) + (in_hand && !at_.sent ? slices_.part() : 0);
+      const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) + (in_hand && !at_.sent ? slices_.fraction_done() : 0);
       if (count <= 0) continue;
       const OutcomeWatts of_run = outcome_watts(runs_[static_cast<std::size_t>(run)].energy.read_sum(), world_.tables.energy_scale, count);
       const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all

@@ -26,7 +26,7 @@ public:
 
   const char* name() const override { return "direct"; }
   std::int64_t passes() const override { return pixel_samples_; }
-  double part() const override { return rows_.part(); }
+  double fraction_done() const override { return rows_.fraction_done(); }
 
   bool advance(std::int64_t pass) override
   {

@@ -24,7 +24,7 @@ public:
   }
 
   const char* name() const override { return "photons"; }
-  double part() const override { return slices_.part(); }
+  double fraction_done() const override { return slices_.fraction_done(); }
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_round; }
   bool counts_energy() const override { return true; }
 
