@@ -22,7 +22,7 @@ photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& 
   photons.direct = photons.background = false;
   photons.caustic = settings(preset).cast;
   photons::RunPlan plan = photons::make_plan(without_stop(preset), photons, scene, bvh, {.all = preset.leave_out});
-  plan.first_picture = false; // the spheres make it
+  plan.has_previews = false; // the spheres make it
   return plan;
 }
 

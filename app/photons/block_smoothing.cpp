@@ -48,11 +48,11 @@ Noisy between(const Blocks& blocks, const Noisy& layer)
   return {between_blocks(blocks, layer.rgb), layer.draw.empty() ? layer.draw : between_blocks(blocks, layer.draw)};
 }
 
-BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_edge)
-    : first_{scene.camera.width, scene.camera.height, first_edge}
+BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_preview_edge)
+    : first_{scene.camera.width, scene.camera.height, first_preview_edge}
 {
   const std::shared_ptr<const Smoothing::View> view = Smoothing::view_of(scene, bvh);
-  for (Blocks blocks{first_.width, first_.height, first_edge > 1 ? 2 * first_edge : 1}; blocks.edge > 0; blocks.edge /= 2)
+  for (Blocks blocks{first_.width, first_.height, first_preview_edge > 1 ? 2 * first_preview_edge : 1}; blocks.edge > 0; blocks.edge /= 2)
     levels_.push_back({blocks, Smoothing(view, blocks.across(), blocks.down(), spread)});
 }
 

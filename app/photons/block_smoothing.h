@@ -20,12 +20,12 @@ Noisy between(const Blocks& blocks, const Noisy& layer);
 
 class BlockSmoothing {
 public:
-  /// first_edge: of the blocks of a run's first picture; 1 where it has none, and light is spread from pixel to pixel only.
-  BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_edge);
+  /// first_preview_edge: of the blocks of a run's preview; 1 where it has none, and light is spread from pixel to pixel only.
+  BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh, Smoothing::Spread spread, int first_preview_edge);
 
   /// From pixel to pixel.
   Smoothing& pixels() { return levels_.back().smoothing; }
-  /// blocks: those of a first picture, whose `layer` has a value for each. The layer of pixels, smoothed.
+  /// blocks: those of a preview, whose `layer` has a value for each. The layer of pixels, smoothed.
   Noisy pixels_of(const Blocks& blocks, Noisy layer);
   /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in what smaller and larger blocks make of them,
   /// where the halves say that it is better (mixture.h). known: for single pixels.
@@ -38,7 +38,7 @@ private:
   };
   static Noisy spread_in(Level& level, Noisy plain, const Smoothing::Known& known);
 
-  std::vector<Level> levels_; ///< from twice first_edge to single pixels, each with half the edge of that before
+  std::vector<Level> levels_; ///< from twice first_preview_edge to single pixels, each with half the edge of that before
   Blocks first_;
 };
 

@@ -30,7 +30,7 @@ std::vector<Between> places_between(int pixels, int blocks, int edge)
 
 } // namespace
 
-std::vector<int> edges_of_first_pictures(int width, int height)
+std::vector<int> preview_edges(int width, int height)
 {
   constexpr double most_blocks = 64 * 64 * 1.25; // of the second picture
   int edge = 1;

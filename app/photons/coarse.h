@@ -19,9 +19,9 @@ struct Blocks {
   }
 };
 
-/// The edges of the blocks that a run's first pictures have, powers of two above 1, each half of the one before: the first picture has
+/// The edges of the blocks that a run's previews have, powers of two above 1, each half of the one before: the preview has
 /// about 32 x 32 blocks and is there at once, the others soon. None where a picture has so few pixels anyway.
-std::vector<int> edges_of_first_pictures(int width, int height);
+std::vector<int> preview_edges(int width, int height);
 
 /// rgb: [pixel][3]. The means of blocks, [block][3].
 std::vector<float> mean_of_blocks(const Blocks& blocks, std::span<const float> rgb);

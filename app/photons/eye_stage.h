@@ -23,7 +23,7 @@ class EyeStage : public Stage {
 public:
   EyeStage(DeviceWorld& world, const char* layer, const Settings& settings)
       : world_(world), layer_(layer), enough_(static_cast<std::uint32_t>(*settings.pixel_samples)),
-        film_(world.zeroed(std::string("film ") + layer, world.film_size())), first_film_(world.first_film()),
+        film_(world.zeroed(std::string("film ") + layer, world.film_size())), preview_film_(world.preview_film()),
         pixels_(world, *settings.pixel_samples)
   {
   }
@@ -46,29 +46,29 @@ public:
   }
 
   /// One sample of each block in each half.
-  bool look() override
+  bool advance_preview() override
   {
-    const shared::DeviceCamera camera = world_.first_camera();
-    first_film_ = world_.first_film();
+    const shared::DeviceCamera camera = world_.preview_camera();
+    preview_film_ = world_.preview_film();
     std::vector<shared::uint2> samples;
     for (std::uint32_t block = 0; block < static_cast<std::uint32_t>(camera.width * camera.height); ++block)
       for (std::uint32_t half = 0; half < 2; ++half) samples.push_back({block, half});
     world_.context.communicator().keep_own_share(samples);
-    run(first_film_, camera, compute::Buffer(world_.context, "samples", samples), static_cast<std::uint32_t>(samples.size()));
+    run(preview_film_, camera, compute::Buffer(world_.context, "samples", samples), static_cast<std::uint32_t>(samples.size()));
     return true;
   }
 
-  void develop_first(job::Picture& picture) override
+  void develop_preview(job::Picture& picture) override
   {
-    tracing::add_layer(layer_, {first_film_.read_sum(), quanta_per_unit(), [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
+    tracing::add_layer(layer_, {preview_film_.read_sum(), quanta_per_unit(), [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
   }
 
   void state(tracing::State& state) override
   {
     pixels_.state(state);
     state.buffer(film_);
-    if (state.is_read()) first_film_ = world_.first_film();
-    state.buffer(first_film_);
+    if (state.is_read()) preview_film_ = world_.preview_film();
+    state.buffer(preview_film_);
   }
 
 protected:
@@ -99,7 +99,7 @@ private:
   const char* layer_;
   std::uint32_t enough_; ///< Settings::pixel_samples
   compute::Buffer<std::int64_t> film_;
-  compute::Buffer<std::int64_t> first_film_; ///< with a pixel for each block of the first picture
+  compute::Buffer<std::int64_t> preview_film_; ///< with a pixel for each block of the preview
   SampledPixels pixels_;
 };
 

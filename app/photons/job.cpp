@@ -60,13 +60,13 @@ public:
         preset_(preset), stop_seconds_(preset.stop.seconds)
   {
     const Settings& settings = plan.settings;
-    if (plan.first_picture && !settings.relight && settings.estimator != Settings::Estimator::sppm)
-      first_edges_ = edges_of_first_pictures(scene.camera.width, scene.camera.height);
-    smooths_seen_ = plan.first_picture && settings.smoothing == Settings::Smoothing::automatic;
+    if (plan.has_previews && !settings.relight && settings.estimator != Settings::Estimator::sppm)
+      preview_edges_ = preview_edges(scene.camera.width, scene.camera.height);
+    smooths_seen_ = plan.has_previews && settings.smoothing == Settings::Smoothing::automatic;
     if (plan.runs(smoothing_part))
       smoothing_.emplace(scene, bvh,
                          settings.smoothing == Settings::Smoothing::on ? Smoothing::Spread::everywhere : Smoothing::Spread::where_it_helps,
-                         first_edges_.empty() ? 1 : first_edges_[0]);
+                         preview_edges_.empty() ? 1 : preview_edges_[0]);
     shares_work_ = settings.effort == Settings::Effort::automatic && !settings.relight && plan.estimates_error;
     world_.energy = world_.zeroed("energy", OUTCOME_COUNT);
     world_.pixels = make_pixel_lists(context, scene);
@@ -95,9 +95,9 @@ public:
 
   void advance() override
   {
-    if (looks_ < first_edges_.size()) return look();
+    if (previews_ < preview_edges_.size()) return advance_preview();
     if (at_.pass == 1 && at_.stage == 0 && !at_.fraction_of_pass && smooths_seen_ && smoothing_)
-      timed([&] { smoothing_->pixels().look(); }); // before a picture waits for it
+      timed([&] { smoothing_->pixels().find_surfaces(); }); // before a picture waits for it
     const auto begin = Clock::now();
     if (shares_work_ && at_.stage == 0 && !at_.fraction_of_pass && at_.pass >= 2 && std::has_single_bit(static_cast<std::uint64_t>(at_.pass)))
       share_work();
@@ -123,7 +123,7 @@ public:
       p.work += static_cast<std::uint64_t>((static_cast<double>(at_.pass) + fraction_of(s)) *
                                            static_cast<double>(stages_[s].stage->photons_per_pass()));
     p.work_seconds = at_.work_seconds;
-    p.whole = at_.pass > 0 || looks_ > 0;
+    p.whole = at_.pass > 0 || previews_ > 0;
     const double by_seconds = stop_seconds_ ? at_.work_seconds / *stop_seconds_ : 0,
                  by_passes = passes_ > 0 ? passes_with_fraction() / static_cast<double>(passes_) : 0;
     p.fraction = finished() ? 1 : std::min(std::max(by_seconds, by_passes), 1.0);
@@ -203,8 +203,8 @@ public:
   void state(tracing::State& state) override
   {
     state.value(at_);
-    state.value(looks_);
-    if (state.is_read() && looks_ > 0) set_first_picture();
+    state.value(previews_);
+    if (state.is_read() && previews_ > 0) set_preview();
     state.buffer(world_.energy);
     for (TimedStage& s : stages_) {
       state.value(s.seconds);
@@ -270,14 +270,14 @@ private:
 
   bool has_halves(std::size_t stage) const { return stages_[stage].stage->has_halves(at_.pass, stage < at_.stage); }
 
-  /// The next of the first pictures, whole: nobody wants to see a part of it.
-  void look()
+  /// The next of the previews, whole: nobody wants to see a part of it.
+  void advance_preview()
   {
-    ++looks_;
-    set_first_picture();
+    ++previews_;
+    set_preview();
     for (TimedStage& s : stages_) {
       const auto begin = Clock::now();
-      while (!s.stage->look()) {
+      while (!s.stage->advance_preview()) {
       }
       const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
       s.seconds += seconds;
@@ -286,25 +286,25 @@ private:
   }
 
   /// Of so many looks.
-  void set_first_picture()
+  void set_preview()
   {
-    constexpr unsigned rounds_a_look = 2;
-    const Blocks blocks = blocks_of(first_edges_[looks_ - 1]);
+    constexpr unsigned rounds_a_preview = 2;
+    const Blocks blocks = blocks_of(preview_edges_[previews_ - 1]);
     std::vector<bool> may_show_glass(static_cast<std::size_t>(blocks.across()) * static_cast<std::size_t>(blocks.down()));
     for (const std::uint32_t pixel : world_.pixels.glass) may_show_glass[blocks.block_of(pixel)] = true;
     std::vector<std::uint32_t> glass;
     for (std::size_t block = 0; block < may_show_glass.size(); ++block)
       if (may_show_glass[block]) glass.push_back(static_cast<std::uint32_t>(block));
-    world_.first = {blocks, std::min(rounds_a_look * static_cast<unsigned>(looks_), world_.tables.rounds - 1),
+    world_.preview = {blocks, std::min(rounds_a_preview * static_cast<unsigned>(previews_), world_.tables.rounds - 1),
                     compute::Buffer(world_.context, "blocks of glass", glass)};
   }
 
-  /// Of a first picture: as a stage has seen it, smoothed, of [pixel][3].
-  Noisy first_seen(std::size_t stage)
+  /// Of a preview: as a stage has seen it, smoothed, of [pixel][3].
+  Noisy preview_layer(std::size_t stage)
   {
-    const Blocks& first = world_.first.blocks;
+    const Blocks& first = world_.preview.blocks;
     job::Picture picture = black(first);
-    stages_[stage].stage->develop_first(picture);
+    stages_[stage].stage->develop_preview(picture);
     if (picture.layers.empty()) return {};
     Noisy blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, pixels;
     if (!smoothing_) return between(first, blocks);
@@ -317,8 +317,8 @@ private:
   {
     Stage& of = *stages_[stage].stage;
     const bool whole = at_.pass > 0 || stage < at_.stage;
-    const bool wants_first = looks_ > 0 && !has_halves(stage) && (!whole || smoothing_);
-    Noisy first = wants_first ? first_seen(stage) : Noisy();
+    const bool wants_preview = previews_ > 0 && !has_halves(stage) && (!whole || smoothing_);
+    Noisy first = wants_preview ? preview_layer(stage) : Noisy();
     if (!first.rgb.empty() && !whole) return first;
     job::Picture picture = black();
     of.develop(at_.pass, stage < at_.stage, picture);
@@ -329,8 +329,8 @@ private:
       layer.draw = std::move(first.draw);
     } else if (smoothing_ && smooths_seen_ && has_halves(stage)) {
       timed([&] { smoothing_->pixels().spread(layer.rgb, layer.draw); });
-    } else if (wants_first) { // photons of a stage that has no first picture of its own
-      layer = between(world_.first.blocks, means(world_.first.blocks, layer));
+    } else if (wants_preview) { // photons of a stage that has no preview of its own
+      layer = between(world_.preview.blocks, means(world_.preview.blocks, layer));
     }
     return layer;
   }
@@ -344,7 +344,7 @@ private:
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (stages_[s].caustics() && !is_shown(s)) {
         lacks_maps = true;
-        if (looks_ > 0) first = first_seen(s);
+        if (previews_ > 0) first = preview_layer(s);
       }
     job::Picture picture = black();
     tracing::layer_of(picture, "caustic");
@@ -399,8 +399,8 @@ private:
 
   DeviceWorld world_;            ///< the stages use it
   preset::Preset preset_;        ///< with the lights as they are now
-  std::vector<int> first_edges_; ///< of the blocks of first pictures
-  std::size_t looks_ = 0;        ///< first pictures so far
+  std::vector<int> preview_edges_; ///< of the blocks of previews
+  std::size_t previews_ = 0;        ///< previews so far
   bool smooths_seen_ = false;    ///< what paths from the eye see of lights, as well as caustics
   bool shares_work_ = false;     ///< whether time is dealt out by what it gains
   std::optional<BlockSmoothing> smoothing_;

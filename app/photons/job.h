@@ -24,7 +24,7 @@ struct RunPlan : plan::Plan {
   Settings settings;
   RunTables tables;
   std::vector<const RunPart*> parts; ///< that run; stages in the order of their turns in a pass
-  bool first_picture = true;         ///< whether a large picture is worked out coarsely first
+  bool has_previews = true;         ///< whether a large picture is worked out coarsely first
   bool runs(const RunPart& part) const;
 };
 

@@ -76,10 +76,10 @@ public:
 
   bool has_halves(std::int64_t passes, bool done) const override { return rounds(passes, done) >= 2; }
 
-  bool look() override
+  bool advance_preview() override
   {
-    if (round_ < world_.first.rounds) advance(0);
-    return round_ >= world_.first.rounds;
+    if (round_ < world_.preview.rounds) advance(0);
+    return round_ >= world_.preview.rounds;
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override

@@ -335,7 +335,7 @@ Smoothing::Smoothing(std::shared_ptr<const View> view, int width, int height, Sp
 {
 }
 
-void Smoothing::look()
+void Smoothing::find_surfaces()
 {
   if (!view_) return;
   const std::shared_ptr<const View> view = std::move(view_);
@@ -377,7 +377,7 @@ std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
 void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const Known& known)
 {
   if (error_draw.empty()) return;
-  look();
+  find_surfaces();
   const std::vector<double> light = light_of(rgb);
   std::vector<double> wanted = portions(light, error_draw, width_, height_);
   for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)

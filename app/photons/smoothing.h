@@ -47,10 +47,10 @@ public:
   /// Looks once through the middle of every pixel of a picture of width x height, on every core. Light is spread within one nearly flat
   /// part of the diffuse object that the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where
   /// glass or a mirror shows none, or is curved so that neighbours show places far apart, it is spread within one nearly flat part of the
-  /// glass or mirror. The looks wait until the first call of look() or spread(), for they would hold up a run's first picture: until then
+  /// glass or mirror. The looks wait until the first call of find_surfaces() or spread(), for they would hold up a run's preview: until then
   /// it keeps what is looked at.
   Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
-  void look();
+  void find_surfaces();
 
   /// What it takes at most, in bytes.
   static std::uint64_t bytes(const scene::Scene& scene, const scene::Bvh& bvh);

@@ -55,10 +55,10 @@ public:
   virtual std::int64_t passes() const { return preset::max_passes; }
   /// One slice of about 30 ms of a pass that it takes part in. True when its part of that pass is complete: it is asked again in the next.
   virtual bool advance(std::int64_t pass) = 0;
-  /// One slice of its part of a first picture (DeviceWorld::first), before the first pass. True when that is complete.
-  virtual bool look() { return true; }
-  /// Adds its layers to the first picture, as develop.
-  virtual void develop_first(job::Picture& /*picture*/) {}
+  /// One slice of its part of a preview (DeviceWorld::preview), before the first pass. True when that is complete.
+  virtual bool advance_preview() { return true; }
+  /// Adds its layers to the preview, as develop.
+  virtual void develop_preview(job::Picture& /*picture*/) {}
   /// How much of the pass in hand is done, 0..1, 0 before its first step and after its last.
   virtual double fraction_done() const = 0;
   /// Adds its layers to the picture, and its error to Picture::error_draw (add_layer in film.h), as the means of `passes` complete passes

@@ -113,7 +113,7 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
 // Takes a path on through glass and mirrors in one band to a diffuse surface or out of the scene. known: `hit` is what it meets next. `hit` and,
 // of a diffuse surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost:
 // radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and
-// refraction. likelier: the path takes the likelier of the two everywhere, for a first picture without noise.
+// refraction. likelier: the path takes the likelier of the two everywhere, for a preview without noise.
 IN_PLACE float reach_end(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed, uint sample, uint paths,
                          uint pixel, uint stream, bool likelier, Surface* surface)
 {

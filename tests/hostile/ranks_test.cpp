@@ -76,7 +76,7 @@ protected:
   }
 };
 
-// Photons that are dealt by variance, splats, photon maps, direct light with more samples where they help, first pictures.
+// Photons that are dealt by variance, splats, photon maps, direct light with more samples where they help, previews.
 TEST_F(Ranks, GiveOnePictureOfPhotons)
 {
   expect_one_picture(

@@ -14,10 +14,10 @@ using testing::IsEmpty;
 
 TEST(Coarse, FirstPicturesHaveFewBlocks)
 {
-  EXPECT_THAT(photons::edges_of_first_pictures(512, 512), ElementsAre(16, 8, 4));
-  EXPECT_THAT(photons::edges_of_first_pictures(128, 128), ElementsAre(4, 2));
-  EXPECT_THAT(photons::edges_of_first_pictures(64, 64), IsEmpty()) << "that is few pixels as it is";
-  EXPECT_THAT(photons::edges_of_first_pictures(8192, 8192), ElementsAre(256, 128, 64));
+  EXPECT_THAT(photons::preview_edges(512, 512), ElementsAre(16, 8, 4));
+  EXPECT_THAT(photons::preview_edges(128, 128), ElementsAre(4, 2));
+  EXPECT_THAT(photons::preview_edges(64, 64), IsEmpty()) << "that is few pixels as it is";
+  EXPECT_THAT(photons::preview_edges(8192, 8192), ElementsAre(256, 128, 64));
 }
 
 TEST(Coarse, ABlockIsTheMeanOfItsPixelsAlsoWhereItIsCut)

@@ -319,7 +319,7 @@ TEST_F(Smoothing, finds_what_is_lacking_in_what_is_known)
   EXPECT_LT(after.variance + std::pow(after.mean - density, 2), 0.1 * noise);
 }
 
-// What hardly is noisy is neither left in the blocks of a first picture, nor as noisy as it came where it is even.
+// What hardly is noisy is neither left in the blocks of a preview, nor as noisy as it came where it is even.
 TEST_F(Smoothing, in_blocks_keeps_what_a_pixel_shows_and_evens_what_is_even)
 {
   const auto is_glint = [](int x, int y) { return x % 12 == 5 && y % 12 == 5; };

@@ -38,7 +38,7 @@ public:
                        [&](std::uint32_t done, std::uint32_t count) {
                          const std::uint32_t first = begin_ + done;
                          for (std::uint32_t path = 0; path < paths.count; ++path) {
-                           look(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster,
+                           trace(world_.tables.camera, seed, pass, {paths.count, paths.before + path, paths.before_in_half + path}, cluster,
                                 world_.pixels.on_device, first, count);
                            gather(first, count);
                          }
@@ -47,7 +47,7 @@ public:
   }
 
   /// Stage::warm_up for its kernel.
-  void warm_up() { look(world_.tables.camera, world_.seed, 0, {}, 0, world_.pixels.on_device, 0, 0); }
+  void warm_up() { trace(world_.tables.camera, world_.seed, 0, {}, 0, world_.pixels.on_device, 0, 0); }
   const compute::Buffer<shared::VisiblePoint>& points() const { return points_; }
 
   double fraction_done() const { return slices_.fraction_done(); }
@@ -58,7 +58,7 @@ public:
   void state(tracing::State& state) { slices_.state(state); }
 
   /// Queues the next path of each of `count` of the camera's pixels, into points().
-  void look(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster,
+  void trace(const shared::DeviceCamera& camera, shared::uint2 seed, std::uint32_t pass, const Paths& paths, int cluster,
             const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count)
   {
     world_.queue(view_, std::max(count, 1u), 64,

@@ -23,7 +23,7 @@ public:
   MapStage(DeviceWorld& world, const scene::Scene& scene, const Settings& settings)
       : world_(world), map_(world.map.value()), first_radius_(first_map_radius(settings, scene)), alpha_(settings.sppm.alpha),
         paths_(world.tables.eye_paths), eye_(world, EyePaths::Pixels::glass), film_(world.zeroed("film photon maps", world.film_size())),
-        first_film_(world.first_film()),
+        preview_film_(world.preview_film()),
         gather_(compute::Program(world.context, "photons/gather.cl", world.defines).kernel("gather_to_film"))
   {
   }
@@ -49,20 +49,20 @@ public:
   }
 
   /// In the photons of the first rounds, within a radius that grows with the blocks.
-  bool look() override
+  bool advance_preview() override
   {
-    const FirstPicture& first = world_.first;
-    const shared::DeviceCamera camera = world_.first_camera();
-    const auto count = static_cast<std::uint32_t>(first.glass.size());
-    const double radius = first_radius_ * first.blocks.edge;
-    first_film_ = world_.first_film();
-    if (first.rounds == 0) return true;
-    map_.build(radius, first.rounds * world_.tables.photons_per_round);
-    for (std::uint32_t path = 0; path < 2 * first_paths; ++path) {
+    const Preview& preview = world_.preview;
+    const shared::DeviceCamera camera = world_.preview_camera();
+    const auto count = static_cast<std::uint32_t>(preview.glass.size());
+    const double radius = first_radius_ * preview.blocks.edge;
+    preview_film_ = world_.preview_film();
+    if (preview.rounds == 0) return true;
+    map_.build(radius, preview.rounds * world_.tables.photons_per_round);
+    for (std::uint32_t path = 0; path < 2 * preview_paths; ++path) {
       Partition(world_.context.communicator(), count).for_own(0, count, [&](std::int64_t begin, std::int64_t own) {
         const auto from = static_cast<std::uint32_t>(begin), blocks = static_cast<std::uint32_t>(own);
-        eye_.look(camera, world_.seed, 0, {first_paths, path, path}, -1, first.glass, from, blocks);
-        gather(first_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, first.rounds, first.glass, from,
+        eye_.trace(camera, world_.seed, 0, {preview_paths, path, path}, -1, preview.glass, from, blocks);
+        gather(preview_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, preview.rounds, preview.glass, from,
                blocks);
       });
     }
@@ -70,10 +70,10 @@ public:
     return true;
   }
 
-  void develop_first(job::Picture& picture) override
+  void develop_preview(job::Picture& picture) override
   {
     const double scale = world_.tables.caustic_scale * world_.white;
-    tracing::add_layer("caustic", {first_film_.read_sum(), scale, [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
+    tracing::add_layer("caustic", {preview_film_.read_sum(), scale, [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
   }
 
   bool advance(std::int64_t pass) override
@@ -104,15 +104,15 @@ public:
     state.value(paths_);
     state.value(before_);
     state.buffer(film_);
-    if (state.is_read()) first_film_ = world_.first_film();
-    state.buffer(first_film_);
+    if (state.is_read()) preview_film_ = world_.preview_film();
+    state.buffer(preview_film_);
     state.joined(map_.stored());
     if (state.is_read()) sorted_pass_ = -1;
   }
 
 private:
-  /// Of a pixel in each half of the first picture.
-  static constexpr std::uint32_t first_paths = 4;
+  /// Of a pixel in each half of the preview.
+  static constexpr std::uint32_t preview_paths = 4;
 
   /// picture: pixels of the film. rounds: of photons that are in the map.
   void gather(const compute::Buffer<std::int64_t>& film, std::uint32_t picture, std::uint32_t pass, double radius, unsigned rounds,
@@ -139,7 +139,7 @@ private:
   std::uint32_t paths_;                   ///< of a pixel in a pass
   std::array<std::uint32_t, 2> before_{}; ///< of a pixel, in even and in odd passes
   EyePaths eye_;
-  compute::Buffer<std::int64_t> film_, first_film_;
+  compute::Buffer<std::int64_t> film_, preview_film_;
   compute::Kernel gather_;
   std::int64_t sorted_pass_ = -1; ///< whose photons the grid has
 };

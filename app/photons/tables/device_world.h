@@ -23,8 +23,8 @@ struct PixelLists {
   compute::Buffer<std::uint32_t> on_device; ///< all of them, then those of glass
 };
 
-/// The newest of a run's first pictures.
-struct FirstPicture {
+/// The newest of a run's previews.
+struct Preview {
   Blocks blocks{0, 0, 0};               ///< edge 0: there is none
   unsigned rounds = 0;                  ///< of photons, of the first pass
   compute::Buffer<std::uint32_t> glass; ///< blocks that may show glass or a mirror
@@ -39,7 +39,7 @@ struct DeviceWorld : tracing::World {
   compute::Buffer<std::int64_t> energy{}; ///< [OUTCOME_COUNT] quanta
   compute::Buffer<shared::DeviceEmitter> emitters{};
   PixelLists pixels{};
-  FirstPicture first{};
+  Preview preview{};
   std::optional<PhotonMap> map{};           ///< that photons which are splatted go to as well, where a stage gathers them
   std::shared_ptr<Relighting> relighting{}; ///< where layers are kept for another light
 
@@ -48,20 +48,20 @@ struct DeviceWorld : tracing::World {
   {
     return std::size_t{3} * halves * static_cast<std::size_t>(tables.camera.width) * static_cast<std::size_t>(tables.camera.height);
   }
-  /// The run's camera with a pixel for each block of the first picture.
-  shared::DeviceCamera first_camera() const
+  /// The run's camera with a pixel for each block of the preview.
+  shared::DeviceCamera preview_camera() const
   {
     shared::DeviceCamera camera = tables.camera;
-    camera.width = first.blocks.across();
-    camera.height = first.blocks.down();
+    camera.width = preview.blocks.across();
+    camera.height = preview.blocks.down();
     return camera;
   }
-  /// Of the first picture, empty where there is none.
-  compute::Buffer<std::int64_t> first_film() const
+  /// Of the preview, empty where there is none.
+  compute::Buffer<std::int64_t> preview_film() const
   {
     const auto blocks =
-        first.blocks.edge > 0 ? static_cast<std::size_t>(first.blocks.across()) * static_cast<std::size_t>(first.blocks.down()) : 0;
-    return zeroed("first picture", std::size_t{3} * halves * blocks);
+        preview.blocks.edge > 0 ? static_cast<std::size_t>(preview.blocks.across()) * static_cast<std::size_t>(preview.blocks.down()) : 0;
+    return zeroed("preview", std::size_t{3} * halves * blocks);
   }
   /// Runs a kernel that sends a slice of the photons of a pass.
   void send(compute::Kernel& kernel, const tracing::PhotonSlice& slice, std::int64_t pass, std::initializer_list<compute::Argument> own)

@@ -16,7 +16,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Two rounds make the halves of a first picture, so they are short: some 15 ms on two cores.
+/// Two rounds make the halves of a preview, so they are short: some 15 ms on two cores.
 unsigned rounds_of_pass(const Settings& settings)
 {
   constexpr int photons_a_round = 1 << 13, most = 32;

@@ -6,7 +6,7 @@
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/render.h"
 
-namespace nephroid::first_pictures_test {
+namespace nephroid::previews_test {
 
 constexpr int size = 192;
 
@@ -28,7 +28,7 @@ double error_of(const job::Picture& picture, const job::Picture& truth)
   return measure::compare({picture.width, picture.height, picture.rgb, "picture"}, {size, size, truth.rgb, "truth"}).rel_l2;
 }
 
-TEST(FirstPictures, AreWholeAndGetBetter)
+TEST(Previews, AreWholeAndGetBetter)
 {
   preset::Preset p = seen_through_glass(), long_run = p;
   long_run.stop.passes = 36;
@@ -53,7 +53,7 @@ TEST(FirstPictures, AreWholeAndGetBetter)
 }
 
 // Where the camera sees the sky alone, there is nothing but that; where photons_per_pass is small, no round of photons is to spare.
-TEST(FirstPictures, ARunMayHaveNoPhotonsForThem)
+TEST(Previews, ARunMayHaveNoPhotonsForThem)
 {
   preset::Preset p = seen_through_glass();
   spectral::settings(p).photons_per_pass = 1024;
@@ -63,4 +63,4 @@ TEST(FirstPictures, ARunMayHaveNoPhotonsForThem)
   EXPECT_EQ(job->progress().work, 0u);
 }
 
-} // namespace nephroid::first_pictures_test
+} // namespace nephroid::previews_test
