@@ -194,7 +194,7 @@ private:
   }
 
   /// Of photons, with the part of the one in hand.
-  double photon_passes() const { return static_cast<double>(photons_->rounds()) / static_cast<double>(photons_->rounds_of_pass()); }
+  double photon_passes() const { return static_cast<double>(photons_->batches()) / static_cast<double>(photons_->batches_per_pass()); }
 
   /// A quarter of a pass of photons comes before each of the first two passes of paths from the eye, for a first picture of both soon: then
   /// there are two halves of each. A whole one follows each later one.
@@ -232,7 +232,7 @@ private:
     const Renderer::Layer smooth = std::move(seen[Renderer::smooth]);
     seen.erase(seen.begin() + Renderer::smooth);
     if (refines() && direct.draw.empty()) direct.rgb = smooth.rgb;
-    if (photons_ && photons_->rounds() >= 2) {
+    if (photons_ && photons_->batches() >= 2) {
       photons_->smooth(direct.rgb, direct.draw, smooth.rgb);
       photons_->set_estimate(caustics_ ? std::move(caustic.rgb) : std::vector<float>());
       const std::shared_ptr<const job::Picture> sent = photons_->snapshot().picture;

@@ -105,7 +105,7 @@ public:
   /// As large a part of the first pass as photons of caustics have, where a pass has more than a few steps.
   bool advance_preview() override
   {
-    const double fraction_of_pass = static_cast<double>(world_.preview.rounds) / world_.tables.rounds;
+    const double fraction_of_pass = static_cast<double>(world_.preview.batches) / world_.tables.batches;
     if (tables_.photons_per_pass < 1 << 16 || fraction_done() >= fraction_of_pass) return true;
     advance(0);
     return false;

@@ -143,8 +143,8 @@ public:
     if (smoothing_) snapshot.phases.emplace_back("smoothing", smoothing_seconds_);
     snapshot.picture = std::move(picture);
     snapshot.progress = progress();
-    const double rounds = photon_rounds() - at_.energy_from;
-    Energy energy{balance_of(outcome_watts(world_.energy.read_sum(), world_.tables.energy_scale, rounds)), {}};
+    const double batches = photon_batches() - at_.energy_from;
+    Energy energy{balance_of(outcome_watts(world_.energy.read_sum(), world_.tables.energy_scale, batches)), {}};
     for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, energy);
     add_energy(energy, snapshot);
     return snapshot;
@@ -187,7 +187,7 @@ public:
     change_light(*world_.relighting, world_, layer_light(preset));
     preset_ = preset;
     world_.white = preset.white;
-    at_.energy_from = photon_rounds();
+    at_.energy_from = photon_batches();
     return true;
   }
 
@@ -197,8 +197,8 @@ public:
     if (smoothing_) smoothing_->pixels().spread(rgb, error_draw, {estimate, direct_noise});
   }
   void set_white(double white) override { world_.white = white; }
-  std::int64_t rounds() const override { return static_cast<std::int64_t>(photon_rounds()); }
-  std::int64_t rounds_of_pass() const override { return world_.tables.rounds; }
+  std::int64_t batches() const override { return static_cast<std::int64_t>(photon_batches()); }
+  std::int64_t batches_per_pass() const override { return world_.tables.batches; }
 
   void state(tracing::State& state) override
   {
@@ -219,7 +219,7 @@ private:
     std::size_t stage = 0;     ///< whose turn it is
     bool fraction_of_pass = false; ///< whether it has begun
     double work_seconds = 0;
-    double energy_from = 0; ///< rounds of photons when the energy counters began
+    double energy_from = 0; ///< batches of photons when the energy counters began
   };
 
   /// Deals the work of the next passes out between photons and paths from the eye, by how much each lowers the picture's noise: the sum of
@@ -288,14 +288,14 @@ private:
   /// Of so many looks.
   void set_preview()
   {
-    constexpr unsigned rounds_a_preview = 2;
+    constexpr unsigned batches_a_preview = 2;
     const Blocks blocks = blocks_of(preview_edges_[previews_ - 1]);
     std::vector<bool> may_show_glass(static_cast<std::size_t>(blocks.across()) * static_cast<std::size_t>(blocks.down()));
     for (const std::uint32_t pixel : world_.pixels.glass) may_show_glass[blocks.block_of(pixel)] = true;
     std::vector<std::uint32_t> glass;
     for (std::size_t block = 0; block < may_show_glass.size(); ++block)
       if (may_show_glass[block]) glass.push_back(static_cast<std::uint32_t>(block));
-    world_.preview = {blocks, std::min(rounds_a_preview * static_cast<unsigned>(previews_), world_.tables.rounds - 1),
+    world_.preview = {blocks, std::min(batches_a_preview * static_cast<unsigned>(previews_), world_.tables.batches - 1),
                     compute::Buffer(world_.context, "blocks of glass", glass)};
   }
 
@@ -390,10 +390,10 @@ private:
   }
 
   /// Of those that DeviceWorld::energy is about, with the part of the one in hand.
-  double photon_rounds() const
+  double photon_batches() const
   {
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      if (stages_[s].stage->counts_energy()) return (static_cast<double>(at_.pass) + fraction_of(s)) * world_.tables.rounds;
+      if (stages_[s].stage->counts_energy()) return (static_cast<double>(at_.pass) + fraction_of(s)) * world_.tables.batches;
     return 0;
   }
 

@@ -43,8 +43,8 @@ public:
   /// Of pictures from now on; an estimate is over the same.
   virtual void set_white(double white) = 0;
   /// Of photons that are splatted, complete ones, and how many a pass has.
-  virtual std::int64_t rounds() const = 0;
-  virtual std::int64_t rounds_of_pass() const = 0;
+  virtual std::int64_t batches() const = 0;
+  virtual std::int64_t batches_per_pass() const = 0;
   /// All that save() and load() are about.
   virtual void state(tracing::State& state) = 0;
 };

@@ -18,8 +18,8 @@ namespace {
 /// measured.
 constexpr double least_gain = 1.5;
 
-/// Before which round photons are first dealt by what was measured: a pass's half, as fewer photons tell too little.
-std::int64_t first_deal(unsigned rounds) { return std::max<std::int64_t>(rounds / 2, 2); }
+/// Before which batch photons are first dealt by what was measured: a pass's half, as fewer photons tell too little.
+std::int64_t first_deal(unsigned batches) { return std::max<std::int64_t>(batches / 2, 2); }
 
 class PhotonStage final : public Stage {
 public:
@@ -37,18 +37,18 @@ public:
   }
 
   const char* name() const override { return "photons"; }
-  double fraction_done() const override { return (static_cast<double>(round_) + slices_.fraction_done()) / world_.tables.rounds; }
+  double fraction_done() const override { return (static_cast<double>(batch_) + slices_.fraction_done()) / world_.tables.batches; }
   std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_pass(); }
   bool counts_energy() const override { return true; }
 
   bool advance(std::int64_t pass) override
   {
     const RunTables& t = world_.tables;
-    const std::int64_t round = pass * t.rounds + round_;
-    if (round_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is one rank's to store
-    if (by_variance_ && slices_.at_start() && round >= first_deal(t.rounds) && deal_.is_due(round)) deal(round);
-    const bool complete = slices_.advance(world_.context.communicator(), t.photons_per_round, [&](const tracing::PhotonSlice& slice) {
-      world_.send(kernel_, slice, round,
+    const std::int64_t batch = pass * t.batches + batch_;
+    if (batch_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is one rank's to store
+    if (by_variance_ && slices_.at_start() && batch >= first_deal(t.batches) && deal_.is_due(batch)) deal(batch);
+    const bool complete = slices_.advance(world_.context.communicator(), t.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
+      world_.send(kernel_, slice, batch,
                   {{"targets", world_.buffers.targets},
                    {"emitters", world_.emitters},
                    {"film", film_},
@@ -58,33 +58,33 @@ public:
                    {"guide", guide_table_},
                    {"unseen_weight", unseen_weight()},
                    {"stored", stored_},
-                   {"stored_first", static_cast<std::uint32_t>(round_) * t.photons_per_round},
+                   {"stored_first", static_cast<std::uint32_t>(batch_) * t.photons_per_batch},
                    {"map_pass", static_cast<std::uint32_t>(pass)},
                    {"emitter_count", t.scene.emitter_count},
                    {"object_count", static_cast<int>(t.objects.size())},
                    {"seed", world_.seed},
-                   {"first_pass", static_cast<std::uint32_t>(deal_.first_pass())},
+                   {"first_iteration", static_cast<std::uint32_t>(deal_.first_iteration())},
                    {"film_scale", world_.on_device(t.caustic_scale)},
                    {"energy_scale", world_.on_device(t.energy_scale)},
-                   {"stored_scale", world_.on_device(photon_scale(t.photons_per_round, t.light_towards_targets_w))}});
+                   {"stored_scale", world_.on_device(photon_scale(t.photons_per_batch, t.light_towards_targets_w))}});
     });
-    if (complete) ++round_;
-    if (round_ < t.rounds) return false;
-    round_ = 0;
+    if (complete) ++batch_;
+    if (batch_ < t.batches) return false;
+    batch_ = 0;
     return true;
   }
 
-  bool has_halves(std::int64_t passes, bool done) const override { return rounds(passes, done) >= 2; }
+  bool has_halves(std::int64_t passes, bool done) const override { return batches(passes, done) >= 2; }
 
   bool advance_preview() override
   {
-    if (round_ < world_.preview.rounds) advance(0);
-    return round_ >= world_.preview.rounds;
+    if (batch_ < world_.preview.batches) advance(0);
+    return batch_ >= world_.preview.batches;
   }
 
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
-    const std::array<double, 2> samples = tracing::halves_of(rounds(passes, done), slices_.fraction_done());
+    const std::array<double, 2> samples = tracing::halves_of(batches(passes, done), slices_.fraction_done());
     tracing::add_layer("caustic",
                        {film_.read_sum(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }}, picture);
   }
@@ -93,7 +93,7 @@ public:
   {
     const bool was_by_variance = by_variance_;
     slices_.state(state);
-    state.value(round_);
+    state.value(batch_);
     state.value(by_variance_);
     state.buffer(film_);
     deal_.state(state);
@@ -106,9 +106,9 @@ public:
 
 private:
   /// That are complete.
-  std::int64_t rounds(std::int64_t passes, bool done) const
+  std::int64_t batches(std::int64_t passes, bool done) const
   {
-    return passes * world_.tables.rounds + (done ? world_.tables.rounds : round_);
+    return passes * world_.tables.batches + (done ? world_.tables.batches : batch_);
   }
 
   void make_kernel()
@@ -119,17 +119,17 @@ private:
     kernel_ = compute::Program(world_.context, "photons/photons.cl", defines).kernel("photons");
   }
 
-  /// Deals the photons of the rounds from this one on by what the earlier ones have shown.
-  void deal(std::int64_t round)
+  /// Deals the photons of the batches from this one on by what the earlier ones have shown.
+  void deal(std::int64_t batch)
   {
     std::vector<double> photons(world_.tables.lights.size(), 0); // of a pass, of each light
     for (const shared::DeviceEmitter& e : deal_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
-    guide_.learn(guide_moments_.read_sum(), photons, static_cast<double>(round - deal_.first_pass()));
-    deal_.deal(round, moments_.read_sum(), world_.halves);
-    if (!insists_ && round > first_deal(world_.tables.rounds) && deal_.gain() < least_gain) {
+    guide_.learn(guide_moments_.read_sum(), photons, static_cast<double>(batch - deal_.first_iteration()));
+    deal_.deal(batch, moments_.read_sum(), world_.halves);
+    if (!insists_ && batch > first_deal(world_.tables.batches) && deal_.gain() < least_gain) {
       by_variance_ = false;
       make_kernel();
-      deal_.deal_as_first(round, world_.halves);
+      deal_.deal_as_first(batch, world_.halves);
     }
     moments_.fill_zero();
     guide_moments_.fill_zero();
@@ -147,7 +147,7 @@ private:
   float unseen_weight() const
   {
     const RunTables& t = world_.tables;
-    return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_round * std::numbers::pi /
+    return static_cast<float>(0.25 * std::exp2(16) * t.photons_per_batch * std::numbers::pi /
                               (t.caustic_scale * t.light_towards_targets_w));
   }
 
@@ -163,7 +163,7 @@ private:
   compute::Buffer<shared::StoredPhoton> stored_; ///< the photon map's, where there is one
   compute::Kernel kernel_;
   tracing::PhotonSlices slices_;
-  std::int64_t round_ = 0; ///< of the pass in hand
+  std::int64_t batch_ = 0; ///< of the pass in hand
 };
 
 PlanPart plan_photons(const PlanInput& input)

@@ -62,6 +62,6 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
       xyz += seen_through(&world, &background, path, hit, &band, seed, frame * PATHS_THROUGH_GLASS + i, pixel) / (float)PATHS_THROUGH_GLASS;
     }
   const float limit = limit_of_sample(frame, enough, film_limit);
-  if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit, jitter.z))
+  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit, jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }

@@ -77,6 +77,6 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
     xyz += follow(&world, way, first, &band, reflected_xyz_all, seed, sample, pixel) / probability;
   }
   const float limit = limit_of_sample(frame, enough, film_limit);
-  if (!film_add_dithered(film_of_pass(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit, jitter.z))
+  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit, jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }

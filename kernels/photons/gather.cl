@@ -23,7 +23,7 @@ kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* poin
   const Gathered gathered = gather_photons(&map, point.position.xyz, point.normal.xyz, point.group, radius);
   if (gathered.count == 0) return;
   const float3 xyz = convert_float3(gathered.xyz) * point.throughput.xyz;
-  if (!film_add_dithered(film_of_pass(film, pass, (int)picture), (int)pixels[first + i], xyz, film_per_quantum, FILM_LIMIT, point.position.w))
+  if (!film_add_dithered(film_of_iteration(film, pass, (int)picture), (int)pixels[first + i], xyz, film_per_quantum, FILM_LIMIT, point.position.w))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }
 

@@ -61,7 +61,7 @@ static inline bool show(const World* world, const Receiver* receiver, const Phot
 }
 
 // Follows a photon to its end: OUTCOME_*. What the film refuses is counted.
-static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint pass, uint number, Outcomes outcomes)
+static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint iteration, uint number, Outcomes outcomes)
 {
   Path* path = &photon->path;
   bool met_diffuse = false;
@@ -71,7 +71,7 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     const Surface surface = surface_at(&world->geometry, hit);
     const DeviceMaterial material = material_of(world, surface.object);
     lose_in_medium(world, path, hit.t);
-    const float4 random = random4(seed, pass, number, 2u + (uint)surface_number, STREAM_INDIRECT);
+    const float4 random = random4(seed, iteration, number, 2u + (uint)surface_number, STREAM_INDIRECT);
     const Band band = band_of(photon);
     if (material.type == MATERIAL_DIFFUSE) {
       if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w)) add_outcome(outcomes, OUTCOME_REFUSED, 1);
@@ -95,13 +95,13 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
 __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global const DeviceEmitter* emitters, int emitter_count,
                        __global const float* spectrum_cdf, // [light][member of all clusters]: which wavelength a photon has
                        volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                       DeviceCamera camera, uint2 seed, uint pass, uint offset, uint stride, uint count, float outside_distance,
+                       DeviceCamera camera, uint2 seed, uint iteration, uint offset, uint stride, uint count, float outside_distance,
                        float film_scale, float energy_scale)
 {
   scene.outside_distance = outside_distance;
   const World world = WORLD;
   const int members = cluster_first[scene.cluster_count];
-  const Receiver receiver = {film_of_pass(film, pass, camera.width * camera.height), film_scale, camera};
+  const Receiver receiver = {film_of_iteration(film, iteration, camera.width * camera.height), film_scale, camera};
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint item = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
@@ -109,8 +109,8 @@ __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything,
     const uint number = offset + stride * item;
     const DeviceEmitter emitter = emitters[emitter_of(emitters, emitter_count, number)];
     DeviceLight light = lights[emitter.light];
-    const float4 random = random4(seed, pass, number, 0u, STREAM_INDIRECT);
-    const float2 place = has_places(&light) ? random4(seed, pass, number, 1u, STREAM_INDIRECT).xy : (float2)(0.0f);
+    const float4 random = random4(seed, iteration, number, 0u, STREAM_INDIRECT);
+    const float2 place = has_places(&light) ? random4(seed, iteration, number, 1u, STREAM_INDIRECT).xy : (float2)(0.0f);
     const Source source = source_of(&world, emitter.light, place, &light);
     const Emission emission = emit_everywhere(light, everything, &scene, random, place);
     if (emission.watts == 0.0f) continue;
@@ -122,7 +122,7 @@ __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything,
                      band.weight,
                      source.light,
                      source.rgb};
-    const int outcome = follow_photon(&world, &receiver, &photon, seed, pass, number, outcomes);
+    const int outcome = follow_photon(&world, &receiver, &photon, seed, iteration, number, outcomes);
     const Band end = band_of(&photon);
     count_photon(outcomes, outcome, photon.watts * band_share(&world, light_of(&photon), &end, 0.0f) * energy_scale,
                  wavelength_left(&world.tables, &photon.path.losses, photon.wavelength));

@@ -54,18 +54,18 @@ typedef struct {
   float wavelength; // in [0, 1): which of its cluster
 } PhotonStart;
 
-// Photon `photon` of a pass. first_pass: from which on photons are dealt to the emitters as they are (DeviceEmitter::sequence_start is for
+// Photon `photon` of a pass. first_iteration: from which on photons are dealt to the emitters as they are (DeviceEmitter::sequence_start is for
 // it).
 // Low discrepancy: the photons of a light that go to one half of the film follow one sequence, pass after pass, so that those of all
 // clusters together are spread evenly; its fourth number says which cluster and which wavelength in it. That number has 32 bits, of which
 // the choice of the cluster takes up to 24: plain random bits below them make the wavelength as fine as any. The halves have sequences
 // of their own, as they must be independent.
 static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights,
-                                       uint2 seed, uint pass, uint first_pass, uint photon)
+                                       uint2 seed, uint iteration, uint first_iteration, uint photon)
 {
   PhotonStart start;
   start.emitter = emitter_of(emitters, emitter_count, photon);
-  start.emission = random4(seed, pass, photon, 0u, STREAM_PHOTONS);
+  start.emission = random4(seed, iteration, photon, 0u, STREAM_PHOTONS);
   start.wavelength = 0.0f;
   start.place = (float2)(0.0f);
   const DeviceEmitter emitter = emitters[start.emitter];
@@ -73,10 +73,10 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   const bool placed = has_places(&light);
 #if NEPHROID_LOW_DISCREPANCY
   const ulong start_of_deal = (ulong)emitter.sequence_start_high << 32 | emitter.sequence_start;
-  const ulong number = start_of_deal + (ulong)((pass - first_pass) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
+  const ulong number = start_of_deal + (ulong)((iteration - first_iteration) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
                        (photon - emitter.light_first_photon);
   const uint index = (uint)number; // a sequence has 2^32 points; then another begins
-  const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | pass % NEPHROID_FILM_HALVES);
+  const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | iteration % NEPHROID_FILM_HALVES);
   const uint4 bits = sobol4_bits(seed, sequence, 0u, index);
   const uint below = (uint)(start.emission.x * 0x1p24f);         // of the fourth number: 24 bits more
   start.emission.xyz = convert_float3(bits.zxy >> 8) * 0x1p-24f; // the first two dimensions are the best pair
@@ -90,7 +90,7 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   start.wavelength = clamp(within / (float)chosen->photon_count, 0.0f, 0x1.fffffep-1f);
 #else
   if (NEPHROID_JITTER || NEPHROID_DIFFERENTIALS || placed) {
-    const float4 more = random4(seed, pass, photon, 1u, STREAM_PHOTONS);
+    const float4 more = random4(seed, iteration, photon, 1u, STREAM_PHOTONS);
     start.place = more.xy;
     start.wavelength = more.z;
   }
@@ -109,7 +109,7 @@ typedef struct {
 
 // Follows a photon in a band to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on its last way, with
 // what it has lost; what is left of the photon is not worked out.
-static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint pass, uint photon)
+static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint iteration, uint photon)
 {
   PhotonEnd end;
   end.outcome = OUTCOME_LOST;
@@ -133,7 +133,7 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
     }
     if (surface_number == world->scene.max_surfaces) break;
     met_caustic_object = true;
-    if ((surface_number & 3) == 0) choices = random4(seed, pass, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
+    if ((surface_number & 3) == 0) choices = random4(seed, iteration, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
     float n_ratio;
     if (!bend_path(world, path, hit.primitive, &surface, &material, band, choices.x, &n_ratio)) break;
     choices = choices.yzwx;
@@ -142,10 +142,10 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
 }
 
 // The same for a photon of a light, with what is left of it and its colour. share: of the light's power, that the photon's band began with.
-static inline PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path, uint2 seed, uint pass,
+static inline PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path, uint2 seed, uint iteration,
                                      uint photon)
 {
-  PhotonEnd end = trace_way(world, band, path, seed, pass, photon);
+  PhotonEnd end = trace_way(world, band, path, seed, iteration, photon);
   const bool deposited = end.outcome == OUTCOME_DEPOSITED;
   if (deposited || path->losses.any) {
     const int reflector = deposited ? material_of(world, end.surface.object).reflector : -1;

@@ -51,7 +51,7 @@ static inline bool store_photon(__global StoredPhoton* slot, const Surface* surf
   return fits;
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a round, whose number is `pass`; a pass of maps, map_pass, has
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a batch, whose number is `iteration`; a pass of maps, map_pass, has
 // one round or several. energy counts what photons carry, whatever a smooth
 // receiver makes of it by its shading normals.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
@@ -61,12 +61,12 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
                       __global const float* guide,           // ... [light][GUIDE_FLOATS]
                       float unseen_weight,                   // ... of a stored photon that no pixel sees directly, as if one did
                       __global StoredPhoton* stored, uint stored_first,             // [photon], with NEPHROID_STORE; where the round begins
-                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint pass, uint map_pass, uint first_pass, uint offset,
+                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint iteration, uint map_pass, uint first_iteration, uint offset,
                       uint stride, uint count, float film_scale, float energy_scale, float stored_scale)
 {
   const World world = WORLD;
   OUTCOMES(outcomes);
-  film = film_of_pass(film, pass, camera.width * camera.height);
+  film = film_of_iteration(film, iteration, camera.width * camera.height);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
@@ -74,7 +74,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #if NEPHROID_STORE
     stored[stored_first + photon].group = NO_PHOTON;
 #endif
-    PhotonStart start = photon_start(emitters, emitter_count, lights, seed, pass, first_pass, photon);
+    PhotonStart start = photon_start(emitters, emitter_count, lights, seed, iteration, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
     DeviceLight light = lights[emitter.light];
 #if NEPHROID_MOMENTS
@@ -95,7 +95,7 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     SET_ASIDE float share = band_share(&world, source, &band, emitter.share), dither = start.emission.w, wavelength = start.wavelength;
     SET_ASIDE float watts = emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
-    const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, pass, photon);
+    const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, iteration, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
       const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));

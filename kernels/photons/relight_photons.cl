@@ -10,24 +10,24 @@
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       LAYER_FILM_ARGUMENTS(film), __global const float* mean_reflectance, // [cluster][reflector]
                       volatile __global long* energy,                                     // [OUTCOME_COUNT]
-                      DeviceCamera camera, uint2 seed, uint pass, uint first_pass, uint offset, uint stride, uint count, float film_scale,
+                      DeviceCamera camera, uint2 seed, uint iteration, uint first_iteration, uint offset, uint stride, uint count, float film_scale,
                       float energy_scale)
 {
   const World world = WORLD;
-  const LayerFilm film = LAYER_FILM(film, pass);
+  const LayerFilm film = LAYER_FILM(film, iteration);
   OUTCOMES(outcomes);
   for (uint k = 0; k < NEPHROID_PHOTONS_PER_ITEM; ++k) {
     const uint number = (uint)get_global_id(0) * NEPHROID_PHOTONS_PER_ITEM + k;
     if (number >= count) break;
     const uint photon = offset + stride * number;
-    const PhotonStart start = photon_start(emitters, scene.emitter_count, lights, seed, pass, first_pass, photon);
+    const PhotonStart start = photon_start(emitters, scene.emitter_count, lights, seed, iteration, first_iteration, photon);
     const DeviceEmitter emitter = emitters[start.emitter];
     const DeviceLight light = lights[emitter.light];
     const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
     const Band band = whole_cluster(emitter.cluster);
     Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
-    const PhotonEnd end = trace_way(&world, &band, &path, seed, pass, photon);
+    const PhotonEnd end = trace_way(&world, &band, &path, seed, iteration, photon);
     const float left = cluster_left(&world.tables, &path.losses, emitter.cluster);
     if (end.outcome == OUTCOME_DEPOSITED) {
       const Splat splat = splat_at(&world, &camera, &end.surface, end.triangle, path.direction);

@@ -30,9 +30,9 @@ static inline void add_exactly(volatile __global long* sum, long value)
 #endif
 
 // The image that a pass adds to.
-static inline volatile __global long* film_of_pass(volatile __global long* film, uint pass, int pixels)
+static inline volatile __global long* film_of_iteration(volatile __global long* film, uint iteration, int pixels)
 {
-  return film + 3 * (size_t)pixels * (pass % NEPHROID_FILM_HALVES);
+  return film + 3 * (size_t)pixels * (iteration % NEPHROID_FILM_HALVES);
 }
 
 // Adds xyz * scale to a pixel. dither: uniform in [0, 1); then a contribution of q quanta, however small, adds q in the mean, where rounding

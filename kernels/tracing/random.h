@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
-// A number is a function of (seed, stream, pass, index, dimension) alone, so results do not depend on threads, devices or resuming.
+// A number is a function of (seed, stream, iteration, index, dimension) alone, so results do not depend on threads, devices or resuming.
 #ifndef NEPHROID_RANDOM_H
 #define NEPHROID_RANDOM_H
 
 #include "kernels/tracing/registers.h"
 
-// Streams keep apart what is drawn for different ends with the same (pass, index, dimension). No two kernels of a run share one; the
+// Streams keep apart what is drawn for different ends with the same (iteration, index, dimension). No two kernels of a run share one; the
 // kernels of relighting (relight_*.cl) use those of the kernels that they replace.
 #define STREAM_PHOTONS 0u                // photons.cl: index is the photon of a pass
 #define STREAM_CAMERA 1u                 // direct.cl, here and below: index is the pixel
@@ -21,11 +21,11 @@
 #define STREAM_VIEW 32u                  // view.cl, here and below: index is the pixel
 #define STREAM_VIEW_CLUSTER 33u
 #define STREAM_PASS_BAND 34u             // pass_band.h: index is the cluster
-#define STREAM_BAKE 48u                  // environment/bake.cl: pass is the direction, index the photon
+#define STREAM_BAKE 48u                  // environment/bake.cl: iteration is the direction, index the photon
 #define STREAM_SEE 49u                   // environment/see.cl, here and below: index is the pixel
 #define STREAM_SEE_WAVELENGTH 50u        // where a pixel starts in the spectrum
-#define STREAM_FACETS 64u                // inverse/search.h: pass is the sweep, index the facet
-#define STREAM_JUDGE 65u                 // inverse/judge.cl: pass is the ray of a facet, index the facet
+#define STREAM_FACETS 64u                // inverse/search.h: iteration is the sweep, index the facet
+#define STREAM_JUDGE 65u                 // inverse/judge.cl: iteration is the ray of a facet, index the facet
 
 static inline uint4 philox4x32(uint4 counter, uint2 key)
 {
@@ -39,10 +39,10 @@ static inline uint4 philox4x32(uint4 counter, uint2 key)
   return counter;
 }
 
-// Four uniforms in [0, 1): dimensions 4 block .. 4 block + 3 of item `index` in `pass` of `stream`.
-static inline float4 random4(uint2 seed, uint pass, uint index, uint block, uint stream)
+// Four uniforms in [0, 1): dimensions 4 block .. 4 block + 3 of item `index` in `iteration` of `stream`.
+static inline float4 random4(uint2 seed, uint iteration, uint index, uint block, uint stream)
 {
-  const uint4 bits = philox4x32((uint4)(index, pass, block, stream), seed);
+  const uint4 bits = philox4x32((uint4)(index, iteration, block, stream), seed);
   return convert_float4(bits >> 8) * 0x1p-24f;
 }
 

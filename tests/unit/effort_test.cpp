@@ -52,7 +52,7 @@ double candle_part(const RunTables& tables, std::size_t cluster)
 double photons_for(double part, const RunTables& tables)
 {
   const auto emitters = static_cast<double>(tables.emitters.size());
-  return 1 + (tables.photons_per_round - emitters) * part;
+  return 1 + (tables.photons_per_batch - emitters) * part;
 }
 
 void expect_clusters_in_proportion(const RunTables& tables, const std::vector<double>& importance)
@@ -293,7 +293,7 @@ TEST(VarianceDeal, CanGoBackToTheFirst)
   deal.deal_as_first(4, 2);
   EXPECT_EQ(deal.emitters()[0].photon_count, 40u);
   EXPECT_EQ(deal.emitters()[1].photon_count, 60u);
-  EXPECT_EQ(deal.first_pass(), 4);
+  EXPECT_EQ(deal.first_iteration(), 4);
   for (const shared::DeviceEmitter& e : deal.emitters()) EXPECT_EQ(e.sequence_start, 200u);
 }
 

@@ -133,7 +133,7 @@ VarianceDeal::VarianceDeal(std::vector<shared::DeviceEmitter> emitters)
 
 bool VarianceDeal::is_due(std::int64_t pass) const
 {
-  return pass >= 2 && pass > first_pass_ && std::has_single_bit(static_cast<std::uint64_t>(pass));
+  return pass >= 2 && pass > first_iteration_ && std::has_single_bit(static_cast<std::uint64_t>(pass));
 }
 
 // A photon of an emitter with n of them adds v = Phi f / n, so the sum of v^2 over the n photons of a pass is Phi^2 E[f^2] / n, and n times
@@ -142,7 +142,7 @@ void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments
 {
   // The part of the photons that stays as it was dealt first, whatever was measured: a variance that few photons measured may be far off.
   constexpr double first_part = 0.1;
-  const double passes = static_cast<double>(pass - first_pass_);
+  const double passes = static_cast<double>(pass - first_iteration_);
   std::vector<double> deviation(emitters_.size());
   unsigned photons_per_pass = 0;
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
@@ -153,7 +153,7 @@ void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments
     photons_per_pass += emitters_[e].photon_count;
   }
   last_variance_ = std::accumulate(moments.begin(), moments.end(), 0.0) / passes;
-  if (first_pass_ == 0) first_variance_ = last_variance_;
+  if (first_iteration_ == 0) first_variance_ = last_variance_;
   const double total = std::accumulate(deviation.begin(), deviation.end(), 0.0);
   std::vector<double> weights = first_deal_;
   if (total > 0)
@@ -169,16 +169,16 @@ void VarianceDeal::give_out(std::int64_t pass, const std::vector<unsigned>& coun
 {
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     shared::DeviceEmitter& emitter = emitters_[e];
-    advance_sequence(emitter, static_cast<std::uint64_t>(pass - first_pass_) / halves * emitter.light_photon_count);
+    advance_sequence(emitter, static_cast<std::uint64_t>(pass - first_iteration_) / halves * emitter.light_photon_count);
     emitter.photon_count = counts[e];
   }
   number_photons(emitters_);
-  first_pass_ = pass;
+  first_iteration_ = pass;
 }
 
 void VarianceDeal::state(tracing::State& state)
 {
-  state.value(first_pass_);
+  state.value(first_iteration_);
   state.value(first_variance_);
   state.value(last_variance_);
   state.items(std::span(emitters_));

@@ -46,10 +46,10 @@ public:
 
   const std::vector<shared::DeviceEmitter>& emitters() const { return emitters_; }
   /// The pass from which on emitters() are dealt so.
-  std::int64_t first_pass() const { return first_pass_; }
+  std::int64_t first_iteration() const { return first_iteration_; }
   /// Whether photons are dealt anew before a pass: before passes 2, 4, 8, 16, ...
   bool is_due(std::int64_t pass) const;
-  /// moments: [emitter], summed since first_pass() over its photons: the square of what each added to the picture, in any unit; they are
+  /// moments: [emitter], summed since first_iteration() over its photons: the square of what each added to the picture, in any unit; they are
   /// taken for the variance, which is right where a pixel gets few photons a pass. halves: of the film, each with its own low-discrepancy
   /// sequence. A tenth of the photons stays as it was dealt first, and every emitter keeps at least one.
   void deal(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
@@ -67,7 +67,7 @@ private:
   std::vector<double> first_deal_;                ///< [emitter] share of the photons at the start
   std::vector<double> squares_, photons_;         ///< [emitter] sum over deals of n^2 moments and of n passes: their ratio estimates V_e
   double first_variance_ = 0, last_variance_ = 0; ///< of a pass, in the unit of `moments`; 0: not known yet
-  std::int64_t first_pass_ = 0;
+  std::int64_t first_iteration_ = 0;
 
   void give_out(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves);
 };

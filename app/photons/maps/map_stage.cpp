@@ -45,10 +45,10 @@ public:
   {
     map_.build(first_radius_, 0);
     eye_.warm_up();
-    gather(film_, world_.pixels.count, 0, first_radius_, world_.tables.rounds, world_.pixels.on_device, 0, 0);
+    gather(film_, world_.pixels.count, 0, first_radius_, world_.tables.batches, world_.pixels.on_device, 0, 0);
   }
 
-  /// In the photons of the first rounds, within a radius that grows with the blocks.
+  /// In the photons of the first batches, within a radius that grows with the blocks.
   bool advance_preview() override
   {
     const Preview& preview = world_.preview;
@@ -56,13 +56,13 @@ public:
     const auto count = static_cast<std::uint32_t>(preview.glass.size());
     const double radius = first_radius_ * preview.blocks.edge;
     preview_film_ = world_.preview_film();
-    if (preview.rounds == 0) return true;
-    map_.build(radius, preview.rounds * world_.tables.photons_per_round);
+    if (preview.batches == 0) return true;
+    map_.build(radius, preview.batches * world_.tables.photons_per_batch);
     for (std::uint32_t path = 0; path < 2 * preview_paths; ++path) {
       Partition(world_.context.communicator(), count).for_own(0, count, [&](std::int64_t begin, std::int64_t own) {
         const auto from = static_cast<std::uint32_t>(begin), blocks = static_cast<std::uint32_t>(own);
         eye_.trace(camera, world_.seed, 0, {preview_paths, path, path}, -1, preview.glass, from, blocks);
-        gather(preview_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, preview.rounds, preview.glass, from,
+        gather(preview_film_, static_cast<std::uint32_t>(camera.width * camera.height), path % 2, radius, preview.batches, preview.glass, from,
                blocks);
       });
     }
@@ -84,7 +84,7 @@ public:
     const auto number = static_cast<std::uint32_t>(pass);
     const EyePaths::Paths paths{paths_, before_[0] + before_[1], before_[number % 2]};
     const bool complete = eye_.advance(world_.seed, number, paths, -1, [&](std::uint32_t first, std::uint32_t count) {
-      gather(film_, world_.pixels.count, number, radius, world_.tables.rounds, world_.pixels.on_device, first, count);
+      gather(film_, world_.pixels.count, number, radius, world_.tables.batches, world_.pixels.on_device, first, count);
     });
     if (complete) before_[number % 2] += paths_;
     return complete;
@@ -114,12 +114,12 @@ private:
   /// Of a pixel in each half of the preview.
   static constexpr std::uint32_t preview_paths = 4;
 
-  /// picture: pixels of the film. rounds: of photons that are in the map.
-  void gather(const compute::Buffer<std::int64_t>& film, std::uint32_t picture, std::uint32_t pass, double radius, unsigned rounds,
+  /// picture: pixels of the film. batches: of photons that are in the map.
+  void gather(const compute::Buffer<std::int64_t>& film, std::uint32_t picture, std::uint32_t pass, double radius, unsigned batches,
               const compute::Buffer<std::uint32_t>& pixels, std::uint32_t first, std::uint32_t count)
   {
     const RunTables& t = world_.tables;
-    const double quanta = photon_scale(t.photons_per_round, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
+    const double quanta = photon_scale(t.photons_per_batch, t.light_towards_targets_w), metres = radius * t.scene.metres_per_unit;
     gather_.run(std::max(count, 1u), 64, map_.arguments(),
                 {{"points", eye_.points()},
                  {"film", film},
@@ -130,7 +130,7 @@ private:
                  {"first", first},
                  {"count", count},
                  {"radius", static_cast<float>(radius)},
-                 {"film_per_quantum", static_cast<float>(t.caustic_scale / quanta / rounds / std::pow(std::numbers::pi * metres, 2))}});
+                 {"film_per_quantum", static_cast<float>(t.caustic_scale / quanta / batches / std::pow(std::numbers::pi * metres, 2))}});
   }
 
   DeviceWorld& world_;

@@ -191,7 +191,7 @@ RunTables make_run_tables(const preset::Preset& preset, const Settings& settings
   RunTables tables = make_lit_tables(settings, with_unit_lights(scene), bvh, leave_out);
   const LayerLight light = layer_light(scene, preset.white);
   tables.emitters = layer_emitters(light, tables, static_cast<unsigned>(settings.photons_per_pass));
-  tables.photons_per_round = count_photons(tables.emitters);
+  tables.photons_per_batch = count_photons(tables.emitters);
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());
   tables.wavelengths.cluster_cdf = layer_cluster_cdf(light, tables.wavelengths);
   tables.energy_scale = layer_energy_scale(light, tables);

@@ -18,21 +18,21 @@ public:
       : world_(world), relighting_(relighting_of(world, scene)), emitters_(world.tables.emitters), sent_(emitters_.size()),
         film_(world.context, "film caustic", relighting_.unbent, world.tables.lights.size() * cluster_count(), world.halves, world.defines),
         // A photon with the power of all lights on a surface as far away as the scene's middle has 2^16 quanta, see set_scales.
-        scale_(world.tables.caustic_scale / world.tables.photons_per_round)
+        scale_(world.tables.caustic_scale / world.tables.photons_per_batch)
   {
     kernel_ = compute::Program(world.context, "photons/relight_photons.cl", world.photon_defines()).kernel("photons");
   }
 
   const char* name() const override { return "photons"; }
   double fraction_done() const override { return slices_.fraction_done(); }
-  std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_round; }
+  std::uint64_t photons_per_pass() const override { return world_.tables.photons_per_batch; }
   bool counts_energy() const override { return true; }
 
   bool advance(std::int64_t pass) override
   {
     take_light(pass);
     at_.half = static_cast<std::size_t>(pass) % world_.halves;
-    const bool complete = slices_.advance(world_.context.communicator(), world_.tables.photons_per_round, [&](const tracing::PhotonSlice& slice) {
+    const bool complete = slices_.advance(world_.context.communicator(), world_.tables.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
       world_.send(kernel_, slice, pass,
                   {{"targets", world_.buffers.targets},
                    {"emitters", world_.emitters},
@@ -43,7 +43,7 @@ public:
                    {"mean_reflectance", relighting_.mean_reflectance},
                    {"energy", world_.energy},
                    {"seed", world_.seed},
-                   {"first_pass", static_cast<std::uint32_t>(at_.first_pass)},
+                   {"first_iteration", static_cast<std::uint32_t>(at_.first_iteration)},
                    {"film_scale", world_.on_device(scale_)},
                    {"energy_scale", static_cast<float>(world_.tables.energy_scale * relighting_.light.strongest())}});
     });
@@ -99,7 +99,7 @@ public:
 private:
   struct Position {
     std::size_t half = 0;        ///< of the film, that the pass in hand adds to
-    std::int64_t first_pass = 0; ///< from which on photons are dealt as they are
+    std::int64_t first_iteration = 0; ///< from which on photons are dealt as they are
   };
 
   std::size_t cluster_count() const { return world_.tables.wavelengths.clusters.size(); }
@@ -140,7 +140,7 @@ private:
   {
     const bool deals = slices_.at_start() && dealt_ != relighting_.changes;
     if (!deals && shared_ == relighting_.changes) return;
-    const std::vector<shared::DeviceEmitter> now = layer_emitters(relighting_.light, world_.tables, world_.tables.photons_per_round);
+    const std::vector<shared::DeviceEmitter> now = layer_emitters(relighting_.light, world_.tables, world_.tables.photons_per_batch);
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
       emitters_[e].share = now[e].share;
       if (!deals) continue;
@@ -152,7 +152,7 @@ private:
     shared_ = relighting_.changes;
     if (deals) {
       dealt_ = relighting_.changes;
-      at_.first_pass = pass;
+      at_.first_iteration = pass;
     }
     world_.emitters.write(emitters_);
   }

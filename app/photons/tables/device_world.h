@@ -26,7 +26,7 @@ struct PixelLists {
 /// The newest of a run's previews.
 struct Preview {
   Blocks blocks{0, 0, 0};               ///< edge 0: there is none
-  unsigned rounds = 0;                  ///< of photons, of the first pass
+  unsigned batches = 0;                  ///< of photons, of the first pass
   compute::Buffer<std::uint32_t> glass; ///< blocks that may show glass or a mirror
 };
 
@@ -64,11 +64,11 @@ struct DeviceWorld : tracing::World {
     return zeroed("preview", std::size_t{3} * halves * blocks);
   }
   /// Runs a kernel that sends a slice of the photons of a pass.
-  void send(compute::Kernel& kernel, const tracing::PhotonSlice& slice, std::int64_t pass, std::initializer_list<compute::Argument> own)
+  void send(compute::Kernel& kernel, const tracing::PhotonSlice& slice, std::int64_t iteration, std::initializer_list<compute::Argument> own)
   {
     run_photons(kernel, slice.count, own,
                 {{"camera", tables.camera},
-                 {"pass", static_cast<std::uint32_t>(pass)},
+                 {"iteration", static_cast<std::uint32_t>(iteration)},
                  {"offset", slice.offset},
                  {"stride", slice.stride},
                  {"count", slice.count}});

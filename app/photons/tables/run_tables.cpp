@@ -16,12 +16,12 @@ namespace {
 
 using std::numbers::pi;
 
-/// Two rounds make the halves of a preview, so they are short: some 15 ms on two cores.
-unsigned rounds_of_pass(const Settings& settings)
+/// Two batches make the halves of a preview, so they are short: some 15 ms on two cores.
+unsigned batches_per_pass(const Settings& settings)
 {
-  constexpr int photons_a_round = 1 << 13, most = 32;
+  constexpr int photons_a_batch = 1 << 13, most = 32;
   if (settings.relight || settings.estimator == Settings::Estimator::sppm) return 1;
-  return static_cast<unsigned>(std::clamp(settings.photons_per_pass / photons_a_round, 1, most));
+  return static_cast<unsigned>(std::clamp(settings.photons_per_pass / photons_a_batch, 1, most));
 }
 
 /// weights: ClusterShares::photons.
@@ -40,7 +40,7 @@ std::vector<PhotonSource> photon_sources(const std::vector<double>& weights, con
 void set_scales(const scene::Scene& scene, int pixel_samples, RunTables& tables)
 {
   const double metres = scene.metres_per_unit, radius = tracing::scene_bounds(scene).radius;
-  tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_round, tables.light_towards_targets_w);
+  tables.caustic_scale = tracing::splat_scale(scene, tables.photons_per_batch, tables.light_towards_targets_w);
   double irradiance = 0;
   for (const scene::Light& light : scene.lights)
     irradiance += light.irradiance_w_m2 + light.power_w / (4 * pi * std::pow(radius * metres, 2));
@@ -56,11 +56,11 @@ RunTables make_lit_tables(const Settings& settings, const scene::Scene& scene, c
   RunTables tables;
   static_cast<tracing::SceneTables&>(tables) = tracing::make_scene_tables(scene, scene_clusters(settings, scene), leave_out);
   ClusterShares shares = make_cluster_shares(settings, scene, bvh, tables.towards_targets_w, tables.wavelengths);
-  tables.rounds = rounds_of_pass(settings);
+  tables.batches = batches_per_pass(settings);
   tables.emitters =
-      make_emitters(photon_sources(shares.photons, tables.wavelengths), static_cast<unsigned>(settings.photons_per_pass) / tables.rounds);
+      make_emitters(photon_sources(shares.photons, tables.wavelengths), static_cast<unsigned>(settings.photons_per_pass) / tables.batches);
   tables.importance = std::move(shares.importance);
-  tables.photons_per_round = count_photons(tables.emitters);
+  tables.photons_per_batch = count_photons(tables.emitters);
   tables.eye_paths = eye_paths_a_pass(scene, bvh, tables.photons_per_pass());
   tables.scene.max_surfaces = settings.max_surfaces;
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());

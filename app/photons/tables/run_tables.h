@@ -11,11 +11,11 @@
 namespace nephroid::photons {
 
 struct RunTables : tracing::SceneTables {
-  std::vector<shared::DeviceEmitter> emitters; ///< photons of one round, dealt out to lights and clusters
-  unsigned photons_per_round = 0;              ///< as dealt out: at least one for each emitter
-  unsigned rounds = 1;                         ///< of a pass: photons that are splatted come in so many fair samples
+  std::vector<shared::DeviceEmitter> emitters; ///< photons of one batch, dealt out to lights and clusters
+  unsigned photons_per_batch = 0;              ///< as dealt out: at least one for each emitter
+  unsigned batches = 1;                         ///< of a pass: photons that are splatted come in so many fair samples
   unsigned eye_paths = 1;                      ///< that gather photons, of a pixel in a pass (maps/photon_map.h)
-  unsigned photons_per_pass() const { return rounds * photons_per_round; }
+  unsigned photons_per_pass() const { return batches * photons_per_batch; }
   std::vector<double> importance;             ///< [cluster] 0..1, the largest 1: see ClusterShares
   double caustic_scale = 1, direct_scale = 1; ///< film quanta per unit of XYZ radiance, powers of two
   double direct_limit = 1;                    ///< quanta that one contribution to the direct film may have
