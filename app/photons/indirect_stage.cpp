@@ -38,7 +38,7 @@ struct IndirectTables {
   float outside_distance = 0;                  ///< directional photons start this far before it
   std::vector<shared::DeviceEmitter> emitters; ///< photons of one pass: one emitter for each light; cluster and share are not used
   std::vector<float> spectrum_cdf;             ///< [light][member of cluster_wavelengths]: whole numbers of 2^-24, the last 1
-  unsigned photons_per_pass = 0;               ///< as dealt out: at least one for each light
+  unsigned photons_per_pass = 0;               ///< as allocated: at least one for each light
   double emitted_w = 0;                        ///< in a pass, by all lights, all wavelengths
   double film_scale = 1, energy_scale = 1;     ///< quanta per unit of XYZ radiance and per watt, powers of two
 };

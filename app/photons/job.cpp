@@ -222,7 +222,7 @@ private:
     double energy_from = 0; ///< batches of photons when the energy counters began
   };
 
-  /// Deals the work of the next passes out between photons and paths from the eye, by how much each lowers the picture's noise: the sum of
+  /// Allocates the work of the next passes between photons and paths from the eye, by how much each lowers the picture's noise: the sum of
   /// the variances V_s of what takes the work w_s a pass, V_s w_s being as it is, is smallest where all V_s / w_s are alike. Work is
   /// counted, not timed, so that a seed has its bits. The square of a pixel's noise is over that of its light, as in the metric rel_mse.
   void share_work()
@@ -402,7 +402,7 @@ private:
   std::vector<int> preview_edges_; ///< of the blocks of previews
   std::size_t previews_ = 0;        ///< previews so far
   bool smooths_seen_ = false;    ///< what paths from the eye see of lights, as well as caustics
-  bool shares_work_ = false;     ///< whether time is dealt out by what it gains
+  bool shares_work_ = false;     ///< whether time is allocated by what it gains
   std::optional<BlockSmoothing> smoothing_;
   std::vector<float> estimate_;  ///< Run::set_estimate
   double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's

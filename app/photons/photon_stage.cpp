@@ -14,18 +14,18 @@
 namespace nephroid::photons {
 namespace {
 
-/// By how much photons that are dealt by variance have to lower it: so much longer they may take, for they meet more glass and are
+/// By how much photons that are allocated by variance have to lower it: so much longer they may take, for they meet more glass and are
 /// measured.
 constexpr double least_gain = 1.5;
 
-/// Before which batch photons are first dealt by what was measured: a pass's half, as fewer photons tell too little.
-std::int64_t first_deal(unsigned batches) { return std::max<std::int64_t>(batches / 2, 2); }
+/// Before which batch photons are first allocated by what was measured: a pass's half, as fewer photons tell too little.
+std::int64_t first_reallocation(unsigned batches) { return std::max<std::int64_t>(batches / 2, 2); }
 
 class PhotonStage final : public Stage {
 public:
   PhotonStage(DeviceWorld& world, const scene::Scene&, const Settings& settings)
       : world_(world), insists_(settings.effort == Settings::Effort::variance),
-        by_variance_(insists_ || settings.effort == Settings::Effort::automatic), deal_(world.tables.emitters),
+        by_variance_(insists_ || settings.effort == Settings::Effort::automatic), allocation_(world.tables.emitters),
         guide_(by_variance_ ? world.tables.lights.size() : 0),
         moments_(world.zeroed("variance of each emitter", by_variance_ ? world.tables.emitters.size() : 0)),
         guide_moments_(world.zeroed("variance of each direction", by_variance_ ? world.tables.lights.size() * EmissionGuide::cells : 0)),
@@ -46,7 +46,7 @@ public:
     const RunTables& t = world_.tables;
     const std::int64_t batch = pass * t.batches + batch_;
     if (batch_ == 0 && slices_.at_start()) stored_.fill_zero(); // each photon is one rank's to store
-    if (by_variance_ && slices_.at_start() && batch >= first_deal(t.batches) && deal_.is_due(batch)) deal(batch);
+    if (by_variance_ && slices_.at_start() && batch >= first_reallocation(t.batches) && allocation_.is_due(batch)) reallocate(batch);
     const bool complete = slices_.advance(world_.context.communicator(), t.photons_per_batch, [&](const tracing::PhotonSlice& slice) {
       world_.send(kernel_, slice, batch,
                   {{"targets", world_.buffers.targets},
@@ -63,7 +63,7 @@ public:
                    {"emitter_count", t.scene.emitter_count},
                    {"object_count", static_cast<int>(t.objects.size())},
                    {"seed", world_.seed},
-                   {"first_iteration", static_cast<std::uint32_t>(deal_.first_iteration())},
+                   {"first_iteration", static_cast<std::uint32_t>(allocation_.first_iteration())},
                    {"film_scale", world_.on_device(t.caustic_scale)},
                    {"energy_scale", world_.on_device(t.energy_scale)},
                    {"stored_scale", world_.on_device(photon_scale(t.photons_per_batch, t.light_towards_targets_w))}});
@@ -96,11 +96,11 @@ public:
     state.value(batch_);
     state.value(by_variance_);
     state.buffer(film_);
-    deal_.state(state);
+    allocation_.state(state);
     guide_.state(state);
     state.buffer(moments_);
     state.buffer(guide_moments_);
-    if (state.is_read()) write_deal();
+    if (state.is_read()) write_allocation();
     if (by_variance_ != was_by_variance) make_kernel();
   }
 
@@ -119,26 +119,26 @@ private:
     kernel_ = compute::Program(world_.context, "photons/photons.cl", defines).kernel("photons");
   }
 
-  /// Deals the photons of the batches from this one on by what the earlier ones have shown.
-  void deal(std::int64_t batch)
+  /// Allocates the photons of the batches from this one on by what the earlier ones have shown.
+  void reallocate(std::int64_t batch)
   {
     std::vector<double> photons(world_.tables.lights.size(), 0); // of a pass, of each light
-    for (const shared::DeviceEmitter& e : deal_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
-    guide_.learn(guide_moments_.read_sum(), photons, static_cast<double>(batch - deal_.first_iteration()));
-    deal_.deal(batch, moments_.read_sum(), world_.halves);
-    if (!insists_ && batch > first_deal(world_.tables.batches) && deal_.gain() < least_gain) {
+    for (const shared::DeviceEmitter& e : allocation_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
+    guide_.learn(guide_moments_.read_sum(), photons, static_cast<double>(batch - allocation_.first_iteration()));
+    allocation_.reallocate(batch, moments_.read_sum(), world_.halves);
+    if (!insists_ && batch > first_reallocation(world_.tables.batches) && allocation_.gain() < least_gain) {
       by_variance_ = false;
       make_kernel();
-      deal_.deal_as_first(batch, world_.halves);
+      allocation_.restore_initial(batch, world_.halves);
     }
     moments_.fill_zero();
     guide_moments_.fill_zero();
-    write_deal();
+    write_allocation();
   }
 
-  void write_deal()
+  void write_allocation()
   {
-    world_.emitters.write(deal_.emitters());
+    world_.emitters.write(allocation_.emitters());
     guide_table_.write(guide_.table());
   }
 
@@ -152,11 +152,11 @@ private:
   }
 
   DeviceWorld& world_;
-  bool insists_;     ///< on dealing by variance
-  bool by_variance_; ///< whether photons are dealt and guided so, and it is measured how
-  VarianceDeal deal_;
+  bool insists_;     ///< on allocating by variance
+  bool by_variance_; ///< whether photons are allocated and guided so, and it is measured how
+  NeymanAllocation allocation_;
   EmissionGuide guide_;
-  compute::Buffer<std::int64_t> moments_;       ///< [emitter], see VarianceDeal::deal
+  compute::Buffer<std::int64_t> moments_;       ///< [emitter], see NeymanAllocation::reallocate
   compute::Buffer<std::int64_t> guide_moments_; ///< [light][GUIDE_CELLS], see EmissionGuide::learn
   compute::Buffer<float> guide_table_;
   compute::Buffer<std::int64_t> film_;

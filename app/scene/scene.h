@@ -56,7 +56,7 @@ struct Light {
   optics::Spectrum spectrum{};    ///< sums to 1
   std::vector<int> inside;        ///< dielectric objects that contain it, outermost first
   /// Of the environment, which is directional light of many directions and colours (environment.h): what a photon's red, green and
-  /// blue part each carry at every wavelength; `spectrum` is what photons are dealt by. Empty of a lamp.
+  /// blue part each carry at every wavelength; `spectrum` is what photons are allocated by. Empty of a lamp.
   std::vector<optics::Spectrum> primaries;
 
   bool operator==(const Light&) const = default;

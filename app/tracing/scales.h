@@ -36,7 +36,7 @@ std::vector<float> exact_cdf(const std::vector<double>& weights);
 /// The same with a 0 in front: one number more than there are weights.
 std::vector<float> exact_cdf_from_zero(const std::vector<double>& weights);
 
-/// What light is worth, where paths are dealt to lights, clusters or wavelengths and nothing has been measured.
+/// What light is worth, where paths are allocated to lights, clusters or wavelengths and nothing has been measured.
 /// seen: what the eye makes of it, (X + Y + Z) / 3. power: a twentieth of it counts too, so that what the eye hardly sees is still seen.
 constexpr double worth(double seen, double power) { return seen + 0.05 * power; }
 

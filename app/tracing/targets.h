@@ -22,7 +22,7 @@ scene::Sphere everything(const scene::Scene& scene);
 /// light. True in doubt.
 bool reaches(const scene::Light& light, const scene::Sphere& sphere);
 
-/// Watts of the light that start towards the targets; targets that overlap count twice, which is good enough for dealing out photons.
+/// Watts of the light that start towards the targets; targets that overlap count twice, which is good enough for allocating photons.
 double towards_targets_w(const scene::Light& light, const std::vector<scene::Sphere>& targets, double metres_per_unit);
 
 /// The area of the shadow that the spheres cast together, as a mean over directions, in square units; estimated to about 2 %.

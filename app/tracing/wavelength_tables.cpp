@@ -120,7 +120,7 @@ void add_spectrum_rows(const Spectrum& spectrum, const std::vector<int>& all, Wa
     tables.reflected_xyz_all.push_back(to_float4(reflected(spectrum, reflectance_row(tables, r), all)));
 }
 
-/// Photons are dealt by a light's spectrum and carry it too, but for those of the environment, which carry three parts.
+/// Photons are allocated by a light's spectrum and carry it too, but for those of the environment, which carry three parts.
 void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
   const std::vector<int> all = optics::all_wavelengths();

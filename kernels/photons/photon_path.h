@@ -54,7 +54,7 @@ typedef struct {
   float wavelength; // in [0, 1): which of its cluster
 } PhotonStart;
 
-// Photon `photon` of a pass. first_iteration: from which on photons are dealt to the emitters as they are (DeviceEmitter::sequence_start is for
+// Photon `photon` of a pass. first_iteration: from which on photons are allocated to the emitters as they are (DeviceEmitter::sequence_start is for
 // it).
 // Low discrepancy: the photons of a light that go to one half of the film follow one sequence, pass after pass, so that those of all
 // clusters together are spread evenly; its fourth number says which cluster and which wavelength in it. That number has 32 bits, of which
@@ -72,8 +72,8 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   const DeviceLight light = lights[emitter.light];
   const bool placed = has_places(&light);
 #if NEPHROID_LOW_DISCREPANCY
-  const ulong start_of_deal = (ulong)emitter.sequence_start_high << 32 | emitter.sequence_start;
-  const ulong number = start_of_deal + (ulong)((iteration - first_iteration) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
+  const ulong start_of_allocation = (ulong)emitter.sequence_start_high << 32 | emitter.sequence_start;
+  const ulong number = start_of_allocation + (ulong)((iteration - first_iteration) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
                        (photon - emitter.light_first_photon);
   const uint index = (uint)number; // a sequence has 2^32 points; then another begins
   const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | iteration % NEPHROID_FILM_HALVES);

@@ -105,7 +105,7 @@ typedef struct {
   uint light_first_photon; // of all emitters of this light together
   uint light_photon_count;
   uint sequence;            // which low-discrepancy sequence those have,
-  uint sequence_start;      // and where in it each half of the film is: the photons of earlier deals, lower
+  uint sequence_start;      // and where in it each half of the film is: the photons of earlier allocations, lower
   uint sequence_start_high; // and upper 32 bits
   int padding[2];
 } DeviceEmitter;

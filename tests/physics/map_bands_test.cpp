@@ -104,7 +104,7 @@ struct Way {
 class MapBands : public testing::TestWithParam<Way> {};
 
 // Each image has the light of its own line, and nothing of the other, whose paths pass the stripe by. One wavelength a path and pass, or a
-// cluster for each, of which the eye's paths are dealt unequal parts. All of a pass of sppm has one wavelength, by steps of the golden
+// cluster for each, of which the eye's paths are allocated unequal parts. All of a pass of sppm has one wavelength, by steps of the golden
 // ratio, and the radius shrinks from pass to pass: they are not independent, and how far its figure may be off is known from other seeds.
 TEST_P(MapBands, AStripeHasOneImageForEachLine)
 {

@@ -225,7 +225,7 @@ TEST(ThroughGlass, SharesChangeNoLight)
   EXPECT_NEAR(by_gain / as_before, 1, 0.05);
 }
 
-// Which clusters photons are dealt to changes the noise of a picture and not what it shows.
+// Which clusters photons are allocated to changes the noise of a picture and not what it shows.
 
 /// X, Y and Z of the layer "caustic", and the power that came down.
 std::vector<double> caustic_colour(const job::Snapshot& snapshot)
@@ -254,9 +254,9 @@ preset::Preset scene_by(Effort effort, std::uint64_t seed)
   return p;
 }
 
-class DealtEffort : public testing::TestWithParam<Effort> {};
+class AllocatedEffort : public testing::TestWithParam<Effort> {};
 
-TEST_P(DealtEffort, LeavesThePictureAsItIs)
+TEST_P(AllocatedEffort, LeavesThePictureAsItIs)
 {
   static const std::vector<Estimate> power = render_passes(scene_by(Effort::power, 1), caustic_colour);
   const std::vector<Estimate> other = render_passes(scene_by(GetParam(), 1000), caustic_colour);
@@ -269,6 +269,6 @@ TEST_P(DealtEffort, LeavesThePictureAsItIs)
   EXPECT_GT(sidak(smallest, 4), false_alarm);
 }
 
-INSTANTIATE_TEST_SUITE_P(Choices, DealtEffort, testing::Values(Effort::equal, Effort::importance, Effort::radziszewski));
+INSTANTIATE_TEST_SUITE_P(Choices, AllocatedEffort, testing::Values(Effort::equal, Effort::importance, Effort::radziszewski));
 
 } // namespace nephroid::smoothing_test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One path for a whole cluster is biased; one wavelength of the cluster for each path is not, however coarse the clusters are. The truth is
-// brute force, a path for every wavelength. Low-discrepancy numbers and photons dealt by variance have to keep the expectation too. The
+// brute force, a path for every wavelength. Low-discrepancy numbers and photons allocated by variance have to keep the expectation too. The
 // two halves of a film, from which a run tells its own error, have to be independent whatever the paths follow.
 #include "job/job.h"
 #include "spectral/settings.h"
@@ -11,7 +11,7 @@
 namespace nephroid::wavelength_jitter_test {
 
 /// Strong dispersion, so that a whole cluster's mean n is far from most of its wavelengths', over a floor that is not grey. Photons take
-/// whole clusters, are independent, and are dealt by power: what a test is about it turns on.
+/// whole clusters, are independent, and are allocated by power: what a test is about it turns on.
 preset::Preset dispersing_ball(bool absorbing)
 {
   preset::Preset p = ball_scene();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the photons of a pass are dealt to lights and clusters: after spectral.effort, by measured variance, and as numbered emitters.
+// How the photons of a pass are allocated to lights and clusters: after spectral.effort, by measured variance, and as numbered emitters.
 #include "photons/effort/emitters.h"
 #include "spectral/settings.h"
 #include "tests/support/plans.h"
@@ -9,7 +9,7 @@ namespace nephroid::effort_test {
 
 using photons::RunTables;
 using Effort = photons::Settings::Effort;
-using photons::VarianceDeal;
+using photons::NeymanAllocation;
 
 constexpr unsigned photons = 1 << 16;
 
@@ -33,7 +33,7 @@ preset::Preset lit_ball(Effort effort)
 }
 
 /// [light][cluster] photons of a round.
-std::vector<std::vector<double>> dealt(const RunTables& tables)
+std::vector<std::vector<double>> allocated(const RunTables& tables)
 {
   std::vector<std::vector<double>> counts(tables.lights.size(), std::vector<double>(tables.wavelengths.clusters.size(), 0));
   for (const shared::DeviceEmitter& e : tables.emitters)
@@ -48,7 +48,7 @@ double candle_part(const RunTables& tables, std::size_t cluster)
   return 3 * share[1][cluster] / (share[0][cluster] + 3 * share[1][cluster]);
 }
 
-/// Photons of an emitter: one for each, and of the rest its part of all weights, rounded (deal_out).
+/// Photons of an emitter: one for each, and of the rest its part of all weights, rounded (allocate_photons).
 double photons_for(double part, const RunTables& tables)
 {
   const auto emitters = static_cast<double>(tables.emitters.size());
@@ -57,7 +57,7 @@ double photons_for(double part, const RunTables& tables)
 
 void expect_clusters_in_proportion(const RunTables& tables, const std::vector<double>& importance)
 {
-  const auto counts = dealt(tables);
+  const auto counts = allocated(tables);
   const double total = std::accumulate(importance.begin(), importance.end(), 0.0);
   for (std::size_t c = 0; c < importance.size(); ++c) {
     const double part = importance[c] / total, candle = candle_part(tables, c);
@@ -67,7 +67,7 @@ void expect_clusters_in_proportion(const RunTables& tables, const std::vector<do
   EXPECT_EQ(tables.photons_per_pass(), photons);
 }
 
-TEST(DealtEffort, EqualGivesEveryClusterTheSame)
+TEST(AllocatedEffort, EqualGivesEveryClusterTheSame)
 {
   const RunTables tables = tables_of(lit_ball(Effort::equal));
   ASSERT_GT(tables.wavelengths.clusters.size(), 5u);
@@ -75,7 +75,7 @@ TEST(DealtEffort, EqualGivesEveryClusterTheSame)
   expect_clusters_in_proportion(tables, tables.importance);
 }
 
-TEST(DealtEffort, FollowsTheImportanceOfClusters)
+TEST(AllocatedEffort, FollowsTheImportanceOfClusters)
 {
   for (const Effort effort : {Effort::importance, Effort::radziszewski})
     for (const auto which : {photons::Importance::Cluster::maximum, photons::Importance::Cluster::mean}) {
@@ -88,7 +88,7 @@ TEST(DealtEffort, FollowsTheImportanceOfClusters)
     }
 }
 
-TEST(DealtEffort, OfPowerIsWhatTheEyeMakesOfIt)
+TEST(AllocatedEffort, OfPowerIsWhatTheEyeMakesOfIt)
 {
   for (const Effort effort : {Effort::automatic, Effort::power, Effort::variance}) {
     const RunTables tables = tables_of(lit_ball(effort));
@@ -97,7 +97,7 @@ TEST(DealtEffort, OfPowerIsWhatTheEyeMakesOfIt)
     for (std::size_t l = 0; l < 2; ++l)
       for (std::size_t c = 0; c < w.clusters.size(); ++c) weights.push_back((l == 1 ? 3 : 1) * (w.seen[l][c] + 0.05 * w.share[l][c]));
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    const auto counts = dealt(tables);
+    const auto counts = allocated(tables);
     for (std::size_t i = 0; i < weights.size(); ++i)
       EXPECT_NEAR(counts[i / w.clusters.size()][i % w.clusters.size()], photons_for(weights[i] / total, tables), 1);
     EXPECT_EQ(*std::max_element(tables.importance.begin(), tables.importance.end()), 1);
@@ -108,7 +108,7 @@ TEST(DealtEffort, OfPowerIsWhatTheEyeMakesOfIt)
 }
 
 // Importance is 0 where the floor reflects nothing, but light is there, and the nine points need not see all: no cluster is dropped.
-TEST(DealtEffort, LeavesNoClusterWithLightOut)
+TEST(AllocatedEffort, LeavesNoClusterWithLightOut)
 {
   preset::Preset p = lit_ball(Effort::importance);
   preset::Reflectance& floor = p.scene.materials["floor"].reflectance;
@@ -120,7 +120,7 @@ TEST(DealtEffort, LeavesNoClusterWithLightOut)
 }
 
 // Where no caustic can be, nothing is asked of the surroundings; the plan leaves the photons out.
-TEST(DealtEffort, IsNotAskedForWhereThereIsNoCaustic)
+TEST(AllocatedEffort, IsNotAskedForWhereThereIsNoCaustic)
 {
   preset::Preset p = lit_ball(Effort::importance);
   p.scene.objects.pop_back(); // the floor
@@ -133,7 +133,7 @@ TEST(DealtEffort, IsNotAskedForWhereThereIsNoCaustic)
   EXPECT_THAT(refusal_of([&] { tables_of(p); }), StartsWith("p.json#/spectral/effort: the importance (4.15) is 0 at every"));
 }
 
-TEST(DealtEffort, IsInThePlan)
+TEST(AllocatedEffort, IsInThePlan)
 {
   const auto reason_of = [](Effort effort, bool runs) {
     const plan::Plan plan = plan_of(lit_ball(effort));
@@ -152,15 +152,15 @@ TEST(DealtEffort, IsInThePlan)
   EXPECT_THAT(reason_of(Effort::variance, false), HasSubstr("variance that is measured"));
 }
 
-TEST(DealOut, GivesEveryEmitterItsShareAndNoneToTheDark)
+TEST(AllocatePhotons, GivesEveryEmitterItsShareAndNoneToTheDark)
 {
-  EXPECT_THAT(photons::deal_out({1, 1, 2}, 8), ElementsAre(2, 3, 3)); // 1 each; then 5 by rounding the running sums 1.25, 2.5, 5
-  EXPECT_THAT(photons::deal_out({1, 0, 1e-9}, 100), ElementsAre(99, 0, 1));
-  EXPECT_THAT(photons::deal_out({1, 1, 1}, 1), ElementsAre(1, 1, 1));
-  EXPECT_THAT(photons::deal_out({0, 0}, 10), ElementsAre(0, 0));
+  EXPECT_THAT(photons::allocate_photons({1, 1, 2}, 8), ElementsAre(2, 3, 3)); // 1 each; then 5 by rounding the running sums 1.25, 2.5, 5
+  EXPECT_THAT(photons::allocate_photons({1, 0, 1e-9}, 100), ElementsAre(99, 0, 1));
+  EXPECT_THAT(photons::allocate_photons({1, 1, 1}, 1), ElementsAre(1, 1, 1));
+  EXPECT_THAT(photons::allocate_photons({0, 0}, 10), ElementsAre(0, 0));
   std::vector<double> weights(401);
   for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::pow(0.9, static_cast<double>(i));
-  const std::vector<unsigned> counts = photons::deal_out(weights, 1 << 18);
+  const std::vector<unsigned> counts = photons::allocate_photons(weights, 1 << 18);
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), 1u << 18);
 }
 
@@ -216,98 +216,98 @@ std::vector<shared::DeviceEmitter> emitters(const std::vector<unsigned>& counts)
   return all;
 }
 
-TEST(VarianceDeal, IsDueBeforePassesThatArePowersOfTwo)
+TEST(NeymanAllocation, IsDueBeforePassesThatArePowersOfTwo)
 {
-  VarianceDeal deal(emitters({10, 10}));
+  NeymanAllocation allocation(emitters({10, 10}));
   std::vector<int> due;
   for (int pass = 0; pass < 70; ++pass) {
-    if (!deal.is_due(pass)) continue;
+    if (!allocation.is_due(pass)) continue;
     due.push_back(pass);
-    deal.deal(pass, std::vector<std::int64_t>{1, 1}, 2);
+    allocation.reallocate(pass, std::vector<std::int64_t>{1, 1}, 2);
   }
   EXPECT_EQ(due, (std::vector<int>{2, 4, 8, 16, 32, 64}));
 }
 
 // Two emitters with n = 100 photons each; a photon of the first adds v with v^2 = 9, of the second v^2 = 1. V_e = n * sum of v^2 a pass
-// stand as 9 to 1, their roots as 3 to 1: 150 and 50 of the 200 photons; nine tenths of that and one of the first deal, 145 and 55.
-TEST(VarianceDeal, GoesByTheRootOfTheVariance)
+// stand as 9 to 1, their roots as 3 to 1: 150 and 50 of the 200 photons; nine tenths of that and one of the first allocation, 145 and 55.
+TEST(NeymanAllocation, GoesByTheRootOfTheVariance)
 {
-  VarianceDeal deal(emitters({100, 100}));
-  deal.deal(2, std::vector<std::int64_t>{2 * 100 * 9, 2 * 100 * 1}, 2);
-  EXPECT_NEAR(deal.emitters()[0].photon_count, 145, 1);
-  EXPECT_EQ(deal.emitters()[0].photon_count + deal.emitters()[1].photon_count, 200u);
-  EXPECT_EQ(deal.emitters()[1].first_photon, deal.emitters()[0].photon_count);
-  // What it measures from then on has other counts and the same variances: v goes as 1 / n. The deal stays.
-  const double a = deal.emitters()[0].photon_count, b = deal.emitters()[1].photon_count;
-  deal.deal(4, std::vector<std::int64_t>{std::llround(2 * a * 9 * 1e4 / (a * a)), std::llround(2 * b * 1e4 / (b * b))}, 2);
-  EXPECT_NEAR(deal.emitters()[0].photon_count, 145, 1);
+  NeymanAllocation allocation(emitters({100, 100}));
+  allocation.reallocate(2, std::vector<std::int64_t>{2 * 100 * 9, 2 * 100 * 1}, 2);
+  EXPECT_NEAR(allocation.emitters()[0].photon_count, 145, 1);
+  EXPECT_EQ(allocation.emitters()[0].photon_count + allocation.emitters()[1].photon_count, 200u);
+  EXPECT_EQ(allocation.emitters()[1].first_photon, allocation.emitters()[0].photon_count);
+  // What it measures from then on has other counts and the same variances: v goes as 1 / n. The allocation stays.
+  const double a = allocation.emitters()[0].photon_count, b = allocation.emitters()[1].photon_count;
+  allocation.reallocate(4, std::vector<std::int64_t>{std::llround(2 * a * 9 * 1e4 / (a * a)), std::llround(2 * b * 1e4 / (b * b))}, 2);
+  EXPECT_NEAR(allocation.emitters()[0].photon_count, 145, 1);
 }
 
-TEST(VarianceDeal, NobodyGoesWithoutAndNothingIsLost)
+TEST(NeymanAllocation, NobodyGoesWithoutAndNothingIsLost)
 {
-  VarianceDeal deal(emitters({1, 1000, 7, 1}));
-  deal.deal(2, std::vector<std::int64_t>{0, std::int64_t{1} << 60, 0, 0}, 1);
+  NeymanAllocation allocation(emitters({1, 1000, 7, 1}));
+  allocation.reallocate(2, std::vector<std::int64_t>{0, std::int64_t{1} << 60, 0, 0}, 1);
   unsigned all = 0;
-  for (const shared::DeviceEmitter& e : deal.emitters()) {
+  for (const shared::DeviceEmitter& e : allocation.emitters()) {
     EXPECT_GE(e.photon_count, 1u);
     EXPECT_EQ(e.first_photon, all);
     all += e.photon_count;
   }
   EXPECT_EQ(all, 1009u);
-  VarianceDeal dark(emitters({30, 70}));
-  dark.deal(2, std::vector<std::int64_t>{0, 0}, 2);
+  NeymanAllocation dark(emitters({30, 70}));
+  dark.reallocate(2, std::vector<std::int64_t>{0, 0}, 2);
   EXPECT_EQ(dark.emitters()[0].photon_count, 30u);
 }
 
 // A light has one sequence for each half of the film: after 2 passes of 100 photons it has used 100 of each, after 4 200.
-TEST(VarianceDeal, SequencesGoOnWhereTheyWere)
+TEST(NeymanAllocation, SequencesGoOnWhereTheyWere)
 {
-  VarianceDeal deal(emitters({40, 60}));
-  deal.deal(2, std::vector<std::int64_t>{1, 1}, 2);
-  for (const shared::DeviceEmitter& e : deal.emitters()) EXPECT_EQ(e.sequence_start, 100u);
-  deal.deal(4, std::vector<std::int64_t>{1, 1}, 2);
-  for (const shared::DeviceEmitter& e : deal.emitters()) EXPECT_EQ(e.sequence_start, 200u);
-  VarianceDeal whole(emitters({40, 60}));
-  whole.deal(2, std::vector<std::int64_t>{1, 1}, 1);
+  NeymanAllocation allocation(emitters({40, 60}));
+  allocation.reallocate(2, std::vector<std::int64_t>{1, 1}, 2);
+  for (const shared::DeviceEmitter& e : allocation.emitters()) EXPECT_EQ(e.sequence_start, 100u);
+  allocation.reallocate(4, std::vector<std::int64_t>{1, 1}, 2);
+  for (const shared::DeviceEmitter& e : allocation.emitters()) EXPECT_EQ(e.sequence_start, 200u);
+  NeymanAllocation whole(emitters({40, 60}));
+  whole.reallocate(2, std::vector<std::int64_t>{1, 1}, 1);
   EXPECT_EQ(whole.emitters()[0].sequence_start, 200u);
 }
 
-// Sums of v^2 of two passes each: 2 * 900 as dealt first, then 2 * 300, then 2 * 450.
-TEST(VarianceDeal, KnowsWhatItHasGained)
+// Sums of v^2 of two passes each: 2 * 900 as allocated first, then 2 * 300, then 2 * 450.
+TEST(NeymanAllocation, KnowsWhatItHasGained)
 {
-  VarianceDeal deal(emitters({40, 60}));
-  EXPECT_EQ(deal.gain(), 1);
-  deal.deal(2, std::vector<std::int64_t>{1000, 800}, 2);
-  EXPECT_EQ(deal.gain(), 1);
-  deal.deal(4, std::vector<std::int64_t>{500, 100}, 2);
-  EXPECT_DOUBLE_EQ(deal.gain(), 3);
-  deal.deal(8, std::vector<std::int64_t>{900, 900}, 2);
-  EXPECT_DOUBLE_EQ(deal.gain(), 2);
+  NeymanAllocation allocation(emitters({40, 60}));
+  EXPECT_EQ(allocation.gain(), 1);
+  allocation.reallocate(2, std::vector<std::int64_t>{1000, 800}, 2);
+  EXPECT_EQ(allocation.gain(), 1);
+  allocation.reallocate(4, std::vector<std::int64_t>{500, 100}, 2);
+  EXPECT_DOUBLE_EQ(allocation.gain(), 3);
+  allocation.reallocate(8, std::vector<std::int64_t>{900, 900}, 2);
+  EXPECT_DOUBLE_EQ(allocation.gain(), 2);
 }
 
-TEST(VarianceDeal, CanGoBackToTheFirst)
+TEST(NeymanAllocation, CanGoBackToTheFirst)
 {
-  VarianceDeal deal(emitters({40, 60}));
-  deal.deal(2, std::vector<std::int64_t>{1, 900}, 2);
-  EXPECT_NE(deal.emitters()[0].photon_count, 40u);
-  deal.deal_as_first(4, 2);
-  EXPECT_EQ(deal.emitters()[0].photon_count, 40u);
-  EXPECT_EQ(deal.emitters()[1].photon_count, 60u);
-  EXPECT_EQ(deal.first_iteration(), 4);
-  for (const shared::DeviceEmitter& e : deal.emitters()) EXPECT_EQ(e.sequence_start, 200u);
+  NeymanAllocation allocation(emitters({40, 60}));
+  allocation.reallocate(2, std::vector<std::int64_t>{1, 900}, 2);
+  EXPECT_NE(allocation.emitters()[0].photon_count, 40u);
+  allocation.restore_initial(4, 2);
+  EXPECT_EQ(allocation.emitters()[0].photon_count, 40u);
+  EXPECT_EQ(allocation.emitters()[1].photon_count, 60u);
+  EXPECT_EQ(allocation.first_iteration(), 4);
+  for (const shared::DeviceEmitter& e : allocation.emitters()) EXPECT_EQ(e.sequence_start, 200u);
 }
 
-TEST(VarianceDeal, IsSavedWhole)
+TEST(NeymanAllocation, IsSavedWhole)
 {
-  VarianceDeal deal(emitters({40, 60}));
-  deal.deal(2, std::vector<std::int64_t>{5, 700}, 2);
-  const std::vector<std::byte> bytes = test::saved<tracing::State>(deal);
-  VarianceDeal other(emitters({40, 60}));
+  NeymanAllocation allocation(emitters({40, 60}));
+  allocation.reallocate(2, std::vector<std::int64_t>{5, 700}, 2);
+  const std::vector<std::byte> bytes = test::saved<tracing::State>(allocation);
+  NeymanAllocation other(emitters({40, 60}));
   EXPECT_TRUE(test::load<tracing::State>(other, bytes));
-  deal.deal(4, std::vector<std::int64_t>{100, 3}, 2);
-  other.deal(4, std::vector<std::int64_t>{100, 3}, 2);
-  for (std::size_t e = 0; e < 2; ++e) EXPECT_EQ(other.emitters()[e].photon_count, deal.emitters()[e].photon_count);
-  EXPECT_EQ(other.gain(), deal.gain());
+  allocation.reallocate(4, std::vector<std::int64_t>{100, 3}, 2);
+  other.reallocate(4, std::vector<std::int64_t>{100, 3}, 2);
+  for (std::size_t e = 0; e < 2; ++e) EXPECT_EQ(other.emitters()[e].photon_count, allocation.emitters()[e].photon_count);
+  EXPECT_EQ(other.gain(), allocation.gain());
 }
 
 } // namespace nephroid::effort_test

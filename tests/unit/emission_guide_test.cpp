@@ -111,7 +111,7 @@ TEST(EmissionGuide, NeighboursLearnFromEachOther)
   }
 }
 
-// Moments over 18 orders of magnitude, several deals, two lights of which one is dark: every chance is above 0 by what is spread evenly,
+// Moments over 18 orders of magnitude, several allocations, two lights of which one is dark: every chance is above 0 by what is spread evenly,
 // and they are all there is. So with the density chance * cells that a photon is divided by (kernels/photons/guide.h), the mean of any f
 // over guided photons is sum chance * f / (chance * cells), the even mean.
 TEST(EmissionGuide, EveryCellKeepsAChance)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the work of a pass is dealt to lights and clusters.
+// How the work of a pass is allocated to lights and clusters.
 #include "photons/effort/importance.h"
 
 #include "tracing/omissions.h"
@@ -16,7 +16,7 @@ namespace {
 
 using Choice = Settings::Effort;
 
-/// What each way to deal out work goes by, and the plan's sentence for it.
+/// What each way to allocate work goes by, and the plan's sentence for it.
 struct Strategy {
   /// light: what the eye makes of it; wavelength: how much each matters; alike: every cluster that has light.
   enum class By { light, wavelength, alike };
@@ -26,9 +26,9 @@ struct Strategy {
 };
 constexpr Strategy strategies[] = {
     {Choice::automatic, Strategy::By::light,
-     "photons are dealt out by the variance that is measured while that gains enough, else by what the eye makes of each cluster's light"},
-    {Choice::power, Strategy::By::light, "photons are dealt out by what the eye makes of each cluster's light"},
-    {Choice::variance, Strategy::By::light, "photons are dealt out by the variance that is measured: spectral.effort is variance"},
+     "photons are allocated by the variance that is measured while that gains enough, else by what the eye makes of each cluster's light"},
+    {Choice::power, Strategy::By::light, "photons are allocated by what the eye makes of each cluster's light"},
+    {Choice::variance, Strategy::By::light, "photons are allocated by the variance that is measured: spectral.effort is variance"},
     {Choice::importance, Strategy::By::wavelength, "clusters matter by light, luminosity and surroundings (4.15)"},
     {Choice::radziszewski, Strategy::By::wavelength, "clusters matter by 1 / cosh^2(0.0072 (lambda - 538))"},
     {Choice::equal, Strategy::By::alike, "every cluster has the same work: spectral.effort is equal"},

@@ -57,7 +57,7 @@ std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>
 {
   std::vector<double> weights;
   for (const PhotonSource& source : sources) weights.push_back(source.weight);
-  const std::vector<unsigned> counts = deal_out(weights, photons);
+  const std::vector<unsigned> counts = allocate_photons(weights, photons);
   std::vector<shared::DeviceEmitter> emitters;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
@@ -72,7 +72,7 @@ std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>
   return emitters;
 }
 
-std::vector<unsigned> deal_out(const std::vector<double>& weights, unsigned photons)
+std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsigned photons)
 {
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   const auto positive = static_cast<unsigned>(std::ranges::count_if(weights, [](double w) { return w > 0; }));
@@ -81,12 +81,12 @@ std::vector<unsigned> deal_out(const std::vector<double>& weights, unsigned phot
   const unsigned spare = photons > positive ? photons - positive : 0;
   // The running sum is rounded, not each count: then the counts add up to `spare` whatever the weights.
   double sum = 0;
-  unsigned dealt = 0;
+  unsigned allocated = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     sum += weights[i];
     const auto upto = static_cast<unsigned>(std::llround(spare * std::min(sum / total, 1.0)));
-    counts[i] = upto - dealt + (weights[i] > 0 ? 1 : 0);
-    dealt = upto;
+    counts[i] = upto - allocated + (weights[i] > 0 ? 1 : 0);
+    allocated = upto;
   }
   return counts;
 }
@@ -121,26 +121,26 @@ void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons)
   emitter.sequence_start_high = static_cast<std::uint32_t>(at >> 32);
 }
 
-VarianceDeal::VarianceDeal(std::vector<shared::DeviceEmitter> emitters)
+NeymanAllocation::NeymanAllocation(std::vector<shared::DeviceEmitter> emitters)
     : emitters_(std::move(emitters)), squares_(emitters_.size(), 0), photons_(emitters_.size(), 0)
 {
   const double photons = count_photons(emitters_);
   for (const shared::DeviceEmitter& emitter : emitters_) {
-    first_counts_.push_back(emitter.photon_count);
-    first_deal_.push_back(emitter.photon_count / photons);
+    initial_counts_.push_back(emitter.photon_count);
+    initial_shares_.push_back(emitter.photon_count / photons);
   }
 }
 
-bool VarianceDeal::is_due(std::int64_t pass) const
+bool NeymanAllocation::is_due(std::int64_t pass) const
 {
   return pass >= 2 && pass > first_iteration_ && std::has_single_bit(static_cast<std::uint64_t>(pass));
 }
 
 // A photon of an emitter with n of them adds v = Phi f / n, so the sum of v^2 over the n photons of a pass is Phi^2 E[f^2] / n, and n times
 // that estimates V = Phi^2 E[f^2].
-void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves)
+void NeymanAllocation::reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves)
 {
-  // The part of the photons that stays as it was dealt first, whatever was measured: a variance that few photons measured may be far off.
+  // The part of the photons that stays as it was allocated first, whatever was measured: a variance that few photons measured may be far off.
   constexpr double first_part = 0.1;
   const double passes = static_cast<double>(pass - first_iteration_);
   std::vector<double> deviation(emitters_.size());
@@ -155,17 +155,17 @@ void VarianceDeal::deal(std::int64_t pass, std::span<const std::int64_t> moments
   last_variance_ = std::accumulate(moments.begin(), moments.end(), 0.0) / passes;
   if (first_iteration_ == 0) first_variance_ = last_variance_;
   const double total = std::accumulate(deviation.begin(), deviation.end(), 0.0);
-  std::vector<double> weights = first_deal_;
+  std::vector<double> weights = initial_shares_;
   if (total > 0)
-    for (std::size_t e = 0; e < weights.size(); ++e) weights[e] = first_part * first_deal_[e] + (1 - first_part) * deviation[e] / total;
-  give_out(pass, deal_out(weights, photons_per_pass), halves);
+    for (std::size_t e = 0; e < weights.size(); ++e) weights[e] = first_part * initial_shares_[e] + (1 - first_part) * deviation[e] / total;
+  assign(pass, allocate_photons(weights, photons_per_pass), halves);
 }
 
-void VarianceDeal::deal_as_first(std::int64_t pass, unsigned halves) { give_out(pass, first_counts_, halves); }
+void NeymanAllocation::restore_initial(std::int64_t pass, unsigned halves) { assign(pass, initial_counts_, halves); }
 
-double VarianceDeal::gain() const { return last_variance_ > 0 ? first_variance_ / last_variance_ : 1; }
+double NeymanAllocation::gain() const { return last_variance_ > 0 ? first_variance_ / last_variance_ : 1; }
 
-void VarianceDeal::give_out(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves)
+void NeymanAllocation::assign(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves)
 {
   for (std::size_t e = 0; e < emitters_.size(); ++e) {
     shared::DeviceEmitter& emitter = emitters_[e];
@@ -176,7 +176,7 @@ void VarianceDeal::give_out(std::int64_t pass, const std::vector<unsigned>& coun
   first_iteration_ = pass;
 }
 
-void VarianceDeal::state(tracing::State& state)
+void NeymanAllocation::state(tracing::State& state)
 {
   state.value(first_iteration_);
   state.value(first_variance_);
@@ -195,7 +195,7 @@ EmissionGuide::EmissionGuide(std::size_t lights) : squares_(lights * cells, 0), 
 
 // A photon of a cell that comes `density` times as often as evenly counts 1 / density; of n photons of the light it adds v = f / (n
 // density). The cell gets n density / GUIDE_CELLS of them, so a pass' sum of v^2 there is E[f^2] / (n density GUIDE_CELLS), and n density
-// times that estimates E[f^2] / GUIDE_CELLS. Deals are weighed by the cell's number of photons.
+// times that estimates E[f^2] / GUIDE_CELLS. Allocations are weighed by the cell's number of photons.
 void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const double> photons, double passes)
 {
   table_.clear();

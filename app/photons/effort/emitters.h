@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons of a pass are dealt to emitters, pairs of a light and a wavelength cluster, and leave lights in directions where they matter. No
+// Photons of a pass are allocated to emitters, pairs of a light and a wavelength cluster, and leave lights in directions where they matter. No
 // OpenCL here.
 #pragma once
 #include "kernels/tracing/shared_types.h"
@@ -12,20 +12,20 @@
 
 namespace nephroid::photons {
 
-/// A light and a cluster that photons may be dealt to.
+/// A light and a cluster that photons may be allocated to.
 struct PhotonSource {
-  double weight = 0; ///< photons are dealt in proportion
+  double weight = 0; ///< photons are allocated in proportion
   int light = 0;     ///< index in the table of lights
   int cluster = 0;
   double share = 0; ///< DeviceEmitter::share
 };
 
-/// The emitters of those sources that deal_out gives photons, numbered. Sources of a light follow each other.
+/// The emitters of those sources that allocate_photons gives photons, numbered. Sources of a light follow each other.
 std::vector<shared::DeviceEmitter> make_emitters(const std::vector<PhotonSource>& sources, unsigned photons);
 
 /// Photons of one pass for each weight, in proportion to it, none without at least one; sums to max(photons, number of positive weights).
 /// What has weight 0 gets 0 photons.
-std::vector<unsigned> deal_out(const std::vector<double>& weights, unsigned photons);
+std::vector<unsigned> allocate_photons(const std::vector<double>& weights, unsigned photons);
 
 /// Fills DeviceEmitter::first_photon and the two of the light from the emitters' photon_count; emitters of a light follow each other.
 void number_photons(std::vector<shared::DeviceEmitter>& emitters);
@@ -36,40 +36,40 @@ unsigned count_photons(const std::vector<shared::DeviceEmitter>& emitters);
 /// Moves an emitter's place in its low-discrepancy sequence on.
 void advance_sequence(shared::DeviceEmitter& emitter, std::uint64_t photons);
 
-/// Deals the photons of a pass to the emitters by the variance that they had in earlier passes: among all ways to deal n photons, n_e in
+/// Allocates the photons of a pass to the emitters by the variance that they had in earlier passes: among all ways to allocate n photons, n_e in
 /// proportion to sqrt(V_e) gives the sum of the emitters' variances V_e / n_e its smallest value, where V_e is the variance of one photon
 /// that carries all of the emitter's power.
-class VarianceDeal {
+class NeymanAllocation {
 public:
-  /// emitters: as dealt for the first passes, each with at least one photon.
-  explicit VarianceDeal(std::vector<shared::DeviceEmitter> emitters);
+  /// emitters: as allocated for the first passes, each with at least one photon.
+  explicit NeymanAllocation(std::vector<shared::DeviceEmitter> emitters);
 
   const std::vector<shared::DeviceEmitter>& emitters() const { return emitters_; }
-  /// The pass from which on emitters() are dealt so.
+  /// The pass from which on emitters() are allocated so.
   std::int64_t first_iteration() const { return first_iteration_; }
-  /// Whether photons are dealt anew before a pass: before passes 2, 4, 8, 16, ...
+  /// Whether photons are allocated anew before a pass: before passes 2, 4, 8, 16, ...
   bool is_due(std::int64_t pass) const;
   /// moments: [emitter], summed since first_iteration() over its photons: the square of what each added to the picture, in any unit; they are
   /// taken for the variance, which is right where a pixel gets few photons a pass. halves: of the film, each with its own low-discrepancy
-  /// sequence. A tenth of the photons stays as it was dealt first, and every emitter keeps at least one.
-  void deal(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
-  /// The first deal again from this pass on.
-  void deal_as_first(std::int64_t pass, unsigned halves);
-  /// What dealing has gained: the variance of a pass as dealt first over that of a pass as dealt last, of those that deal() was told of; 1
-  /// before there were two deals, or nothing to see.
+  /// sequence. A tenth of the photons stays as it was allocated first, and every emitter keeps at least one.
+  void reallocate(std::int64_t pass, std::span<const std::int64_t> moments, unsigned halves);
+  /// The first allocation again from this pass on.
+  void restore_initial(std::int64_t pass, unsigned halves);
+  /// What the allocation has gained: the variance of a pass as allocated first over that of a pass as allocated last, of those that reallocate() was given; 1
+  /// before there were two allocations, or nothing to see.
   double gain() const;
 
   void state(tracing::State& state);
 
 private:
   std::vector<shared::DeviceEmitter> emitters_;
-  std::vector<unsigned> first_counts_;            ///< [emitter] photons of a pass at the start
-  std::vector<double> first_deal_;                ///< [emitter] share of the photons at the start
-  std::vector<double> squares_, photons_;         ///< [emitter] sum over deals of n^2 moments and of n passes: their ratio estimates V_e
+  std::vector<unsigned> initial_counts_;            ///< [emitter] photons of a pass at the start
+  std::vector<double> initial_shares_;                ///< [emitter] share of the photons at the start
+  std::vector<double> squares_, photons_;         ///< [emitter] sum over allocations of n^2 moments and of n passes: their ratio estimates V_e
   double first_variance_ = 0, last_variance_ = 0; ///< of a pass, in the unit of `moments`; 0: not known yet
   std::int64_t first_iteration_ = 0;
 
-  void give_out(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves);
+  void assign(std::int64_t pass, const std::vector<unsigned>& counts, unsigned halves);
 };
 
 /// Where a light's photons matter: a histogram over the numbers that their directions are made of (kernels/photons/guide.h), learned from

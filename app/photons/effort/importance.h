@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much each wavelength matters to the eye in a scene (thesis 4.1.2), how many iterations a cluster gets for it, and how the work of a
-// pass is dealt to lights and clusters (Settings::effort). No OpenCL here.
+// pass is allocated to lights and clusters (Settings::effort). No OpenCL here.
 #pragma once
 #include "photons/settings.h"
 #include "photons/tables/run_tables.h"
@@ -61,9 +61,9 @@ std::vector<double> cluster_importance(const optics::Spectrum& u, std::span<cons
 /// pass p (from 0) when iterations(u, p + 1) > iterations(u, p). importance: 0..1.
 std::int64_t iterations(double importance, std::int64_t passes);
 
-/// How photons are dealt to clusters, and what share of the iterations each has.
+/// How photons are allocated to clusters, and what share of the iterations each has.
 struct ClusterShares {
-  std::vector<double> photons;    ///< [light][cluster] flat: photons of a pass are dealt in proportion; 0 only where there is no light
+  std::vector<double> photons;    ///< [light][cluster] flat: photons of a pass are allocated in proportion; 0 only where there is no light
   std::vector<double> importance; ///< [cluster]: 0..1, the largest 1, above 0 where there is light: part of the iterations that it has
 };
 
@@ -75,7 +75,7 @@ struct ClusterShares {
 ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
                                   const std::vector<double>& watts, const tracing::WavelengthTables& tables);
 
-/// The plan's pass "importance": how photons are dealt to clusters, and what of equal work that leaves. importance:
+/// The plan's pass "importance": how photons are allocated to clusters, and what of equal work that leaves. importance:
 /// ClusterShares::importance.
 plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The light that layers are weighed by (kernels/photons/layers.h), which may change while a run goes on, and by how much; and what a run
-// that keeps layers does differently: unit lights, and work dealt out so that it serves lights to come. On the host, without OpenCL.
+// that keeps layers does differently: unit lights, and work allocated so that it serves lights to come. On the host, without OpenCL.
 #pragma once
 #include "optics/colour.h"
 #include "photons/settings.h"
@@ -46,7 +46,7 @@ struct FlatLight {
 FlatLight flat_light(const tracing::WavelengthTables& tables);
 
 /// make_lit_tables of what a run renders: where it keeps layers, every light has 1 W (W m^-2), none and no wavelength is left out for
-/// being dark, and photons and paths through glass are dealt as layer_emitters and layer_cluster_cdf say. Throws as make_lit_tables.
+/// being dark, and photons and paths through glass are allocated as layer_emitters and layer_cluster_cdf say. Throws as make_lit_tables.
 RunTables make_run_tables(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
                           tracing::LeaveOut leave_out);
 

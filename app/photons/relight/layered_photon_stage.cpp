@@ -84,22 +84,22 @@ public:
 
   void state(tracing::State& state) override
   {
-    bool dealt = dealt_ == relighting_.changes;
+    bool allocated = allocated_ == relighting_.changes;
     state.value(at_);
-    state.value(dealt);
+    state.value(allocated);
     slices_.state(state);
     state.items(std::span(sent_));
     state.items(std::span(emitters_));
     film_.state(state);
     if (!state.is_read()) return;
-    dealt_ = relighting_.changes - (dealt ? 0 : 1);
+    allocated_ = relighting_.changes - (allocated ? 0 : 1);
     world_.emitters.write(emitters_);
   }
 
 private:
   struct Position {
     std::size_t half = 0;        ///< of the film, that the pass in hand adds to
-    std::int64_t first_iteration = 0; ///< from which on photons are dealt as they are
+    std::int64_t first_iteration = 0; ///< from which on photons are allocated as they are
   };
 
   std::size_t cluster_count() const { return world_.tables.wavelengths.clusters.size(); }
@@ -135,23 +135,23 @@ private:
     return sum;
   }
 
-  /// A new light's powers count in the energy balance at once; photons are dealt by it from the next pass on.
+  /// A new light's powers count in the energy balance at once; photons are allocated by it from the next pass on.
   void take_light(std::int64_t pass)
   {
-    const bool deals = slices_.at_start() && dealt_ != relighting_.changes;
-    if (!deals && shared_ == relighting_.changes) return;
+    const bool reallocates = slices_.at_start() && allocated_ != relighting_.changes;
+    if (!reallocates && shared_ == relighting_.changes) return;
     const std::vector<shared::DeviceEmitter> now = layer_emitters(relighting_.light, world_.tables, world_.tables.photons_per_batch);
     for (std::size_t e = 0; e < emitters_.size(); ++e) {
       emitters_[e].share = now[e].share;
-      if (!deals) continue;
+      if (!reallocates) continue;
       emitters_[e].photon_count = now[e].photon_count;
       emitters_[e].sequence_start = emitters_[e].sequence_start_high = 0;
       advance_sequence(emitters_[e], std::max(sent_by(emitters_[e].light, 0), sent_by(emitters_[e].light, 1)));
     }
-    if (deals) number_photons(emitters_);
+    if (reallocates) number_photons(emitters_);
     shared_ = relighting_.changes;
-    if (deals) {
-      dealt_ = relighting_.changes;
+    if (reallocates) {
+      allocated_ = relighting_.changes;
       at_.first_iteration = pass;
     }
     world_.emitters.write(emitters_);
@@ -161,7 +161,7 @@ private:
   const Relighting& relighting_;
   std::vector<shared::DeviceEmitter> emitters_;
   std::vector<std::array<std::uint64_t, 2>> sent_; ///< [emitter]: photons of the complete passes to each half of the film
-  std::uint64_t shared_ = 0, dealt_ = 0;           ///< Relighting::changes when shares and counts were last taken
+  std::uint64_t shared_ = 0, allocated_ = 0;           ///< Relighting::changes when shares and counts were last taken
   LayerFilm film_;
   double scale_; ///< quanta per W m^-2 sr^-1, of one photon that has a layer's whole power
   compute::Kernel kernel_;

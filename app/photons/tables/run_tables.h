@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tables of a run of engine 1, still on the host: the scene's, and how its photons are dealt out. Made once a job; tested without a
+// The tables of a run of engine 1, still on the host: the scene's, and how its photons are allocated. Made once a job; tested without a
 // device.
 #pragma once
 #include "photons/settings.h"
@@ -11,8 +11,8 @@
 namespace nephroid::photons {
 
 struct RunTables : tracing::SceneTables {
-  std::vector<shared::DeviceEmitter> emitters; ///< photons of one batch, dealt out to lights and clusters
-  unsigned photons_per_batch = 0;              ///< as dealt out: at least one for each emitter
+  std::vector<shared::DeviceEmitter> emitters; ///< photons of one batch, allocated to lights and clusters
+  unsigned photons_per_batch = 0;              ///< as allocated: at least one for each emitter
   unsigned batches = 1;                         ///< of a pass: photons that are splatted come in so many fair samples
   unsigned eye_paths = 1;                      ///< that gather photons, of a pixel in a pass (maps/photon_map.h)
   unsigned photons_per_pass() const { return batches * photons_per_batch; }

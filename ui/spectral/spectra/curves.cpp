@@ -92,7 +92,7 @@ auto grouping(const photons::Settings& settings)
   return std::tuple(settings.method, settings.threshold_deg, settings.step_nm, settings.differentials, settings.relight);
 }
 
-/// Of each cluster, as the engine deals out its work.
+/// Of each cluster, as the engine allocates its work.
 std::vector<double> importance_of(const photons::Settings& settings, const Spectrum& u, const tracing::WavelengthTables& tables,
                                   const scene::Scene& outline, const std::vector<double>& watts)
 {
