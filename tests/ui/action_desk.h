@@ -36,7 +36,7 @@ public:
     HeadlessWindow::edit([&](preset::Preset& p) { p.scene.camera.position = {0, 0, z}; });
     frames(4);
   }
-  void look(ui::Look look) { apply(ui::command::SetLook{look}); }
+  void look(ui::ViewSettings view_settings) { apply(ui::command::SetViewSettings{view_settings}); }
   static std::string clipboard()
   {
     const char* text = ImGui::GetClipboardText();

@@ -138,7 +138,7 @@ inline Effect moves_pixel(int x, int y)
 inline Effect sets_tone(ToneCurve tone)
 {
   return {[tone](Desk& d) { d.look({.tone = tone == ToneCurve::filmic ? ToneCurve::standard : ToneCurve::filmic}); },
-          [tone](Desk& d) { return d.chosen().look.tone == tone; }};
+          [tone](Desk& d) { return d.chosen().view_settings.tone == tone; }};
 }
 /// Pinned, so that there is something to compare with.
 inline void compare_with_pin(Desk& d)
@@ -194,15 +194,15 @@ inline void add_run_and_view(Effects& all)
                       [](Desk& d) { return d.comparing().comparison().shown == 0; }};
   all["Compare with picture 1"] = {{}, [](Desk& d) { return d.comparing().comparison().pin == Comparison::run_in_hand; }};
   all["Compare with the next"] = {pin, [](Desk& d) { return d.comparing().comparison().pin != 0; }};
-  all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); }, [](Desk& d) { return d.chosen().look.fit; }};
-  all["Actual size"] = {{}, [](Desk& d) { return !d.chosen().look.fit && d.chosen().look.zoom == 1; }};
-  all["Brighter"] = {{}, [](Desk& d) { return d.chosen().look.exposure_stops == 0.5; }};
-  all["Darker"] = {{}, [](Desk& d) { return d.chosen().look.exposure_stops == -0.5; }};
-  all["Exposure 0"] = {[](Desk& d) { d.look({.exposure_stops = 3}); }, [](Desk& d) { return d.chosen().look.exposure_stops == 0; }};
+  all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); }, [](Desk& d) { return d.chosen().view_settings.fit; }};
+  all["Actual size"] = {{}, [](Desk& d) { return !d.chosen().view_settings.fit && d.chosen().view_settings.zoom == 1; }};
+  all["Brighter"] = {{}, [](Desk& d) { return d.chosen().view_settings.exposure_stops == 0.5; }};
+  all["Darker"] = {{}, [](Desk& d) { return d.chosen().view_settings.exposure_stops == -0.5; }};
+  all["Exposure 0"] = {[](Desk& d) { d.look({.exposure_stops = 3}); }, [](Desk& d) { return d.chosen().view_settings.exposure_stops == 0; }};
   const auto shows_direct = [](Desk& d) { return d.comparing().comparison().layer == "direct"; };
   all["Next layer"] = {{}, shows_direct};
   all["Previous layer"] = {{}, shows_direct}; // there is one, so that both ways lead to it
-  all["Next tone curve"] = {{}, [](Desk& d) { return d.chosen().look.tone == ToneCurve::filmic; }};
+  all["Next tone curve"] = {{}, [](Desk& d) { return d.chosen().view_settings.tone == ToneCurve::filmic; }};
   all["Tone as image.png"] = sets_tone(ToneCurve::standard);
   all["Filmic tone"] = sets_tone(ToneCurve::filmic);
   all["False colour"] = sets_tone(ToneCurve::false_colour);

@@ -163,8 +163,8 @@ TEST(GizmoEdits, TheCameraIsNotAimedAtItself)
 struct Shown {
   preset::Camera camera;
   Canvas canvas{{30, 70}, {640, 411}};
-  Look look;
-  Sight sight() const { return *make_sight(camera, place(look, canvas, camera.resolution), camera.resolution); }
+  ViewSettings view_settings;
+  Sight sight() const { return *make_sight(camera, place(view_settings, canvas, camera.resolution), camera.resolution); }
 };
 
 Shown shown(std::mt19937& random, bool fit)

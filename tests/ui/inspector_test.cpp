@@ -17,7 +17,7 @@ protected:
   const InspectorPanel& inspector() { return workspace.panel<InspectorPanel>(); }
   std::optional<Pixel> pixel() { return workbench.chosen().pixel; }
   /// The middle of a pixel on the screen.
-  Point place_of(int x, int y) { return place(workbench.chosen().look, view().canvas(), {64, 48}).to_screen({x + 0.5, y + 0.5}); }
+  Point place_of(int x, int y) { return place(workbench.chosen().view_settings, view().canvas(), {64, 48}).to_screen({x + 0.5, y + 0.5}); }
   void with_alt(const std::function<void()>& what)
   {
     imgui.key(ImGuiMod_Alt, true);
@@ -79,7 +79,7 @@ TEST_F(InspectorTest, AKeyTakesThePixelInTheMiddleAndLetsItGo)
   EXPECT_THAT(pixel(), Optional(Pixel{32, 24}));
   press(ImGuiKey_I);
   EXPECT_FALSE(pixel());
-  workbench.apply({command::SetLook{{.fit = false, .zoom = 8, .centre = {10.5, 1e9}}}});
+  workbench.apply({command::SetViewSettings{{.fit = false, .zoom = 8, .centre = {10.5, 1e9}}}});
   press(ImGuiKey_I);
   EXPECT_THAT(pixel(), Optional(Pixel{10, 47}));
 }

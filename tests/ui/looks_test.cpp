@@ -17,7 +17,7 @@ protected:
   }
   static std::array<int, 3> bytes(float r, float g, float b) { return {shown_byte(r), shown_byte(g), shown_byte(b)}; }
   const std::string& layer() { return workbench.comparing().comparison().layer; }
-  const Look& look() { return workbench.chosen().look; }
+  const ViewSettings& view_settings() { return workbench.chosen().view_settings; }
   void click_on(const std::string& widget) { click_in(view(), widget, 2); }
   image::Image saved(const std::string& name)
   {
@@ -64,32 +64,32 @@ TEST_F(LooksTest, TheBoxesChooseLayerAndTone)
   EXPECT_EQ(layer(), "caustic");
   click_on("tone");
   click_on("tone:filmic");
-  EXPECT_EQ(look().tone, ToneCurve::filmic);
+  EXPECT_EQ(view_settings().tone, ToneCurve::filmic);
   click_on("tone");
   click_on("tone:false colour");
-  EXPECT_EQ(look().tone, ToneCurve::false_colour);
-  EXPECT_FALSE(look().false_colour) << "automatic";
+  EXPECT_EQ(view_settings().tone, ToneCurve::false_colour);
+  EXPECT_FALSE(view_settings().false_colour) << "automatic";
   click_on("auto range");
-  ASSERT_TRUE(look().false_colour);
-  EXPECT_EQ(*look().false_colour, view().tone().range) << "as it was";
+  ASSERT_TRUE(view_settings().false_colour);
+  EXPECT_EQ(*view_settings().false_colour, view().tone().range) << "as it was";
   click_on("auto range");
-  EXPECT_FALSE(look().false_colour);
+  EXPECT_FALSE(view_settings().false_colour);
 }
 
 TEST_F(LooksTest, ARangeIsTyped)
 {
-  apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.01, 1}}}});
+  apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.01, 1}}}});
   const auto type = [&](const std::string& field, const char* text) {
     click_on(field);
     retype(text);
     press(ImGuiKey_Enter);
   };
   type("high", "50");
-  EXPECT_EQ(*look().false_colour, (LuminanceRange{0.01, 50}));
+  EXPECT_EQ(*view_settings().false_colour, (LuminanceRange{0.01, 50}));
   type("low", "0.5");
-  EXPECT_EQ(*look().false_colour, (LuminanceRange{0.5, 50}));
+  EXPECT_EQ(*view_settings().false_colour, (LuminanceRange{0.5, 50}));
   type("low", "60");
-  EXPECT_EQ(*look().false_colour, (LuminanceRange{0.5, 50})) << "the low end is not above the high one";
+  EXPECT_EQ(*view_settings().false_colour, (LuminanceRange{0.5, 50})) << "the low end is not above the high one";
   EXPECT_THAT(only_message(workbench), HasSubstr("0 < low < high"));
 }
 
@@ -97,37 +97,37 @@ TEST_F(LooksTest, RangesThatAreNoneAreNotTaken)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   for (const LuminanceRange& range : {LuminanceRange{nan, 1}, LuminanceRange{1, infinity}, LuminanceRange{0, -1}}) {
-    workbench.apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = range}}});
-    EXPECT_FALSE(look().false_colour);
+    workbench.apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = range}}});
+    EXPECT_FALSE(view_settings().false_colour);
     frames(2);
   }
-  workbench.apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{5, 1}}}});
-  ASSERT_TRUE(look().false_colour);
-  EXPECT_LT(look().false_colour->low, look().false_colour->high);
+  workbench.apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{5, 1}}}});
+  ASSERT_TRUE(view_settings().false_colour);
+  EXPECT_LT(view_settings().false_colour->low, view_settings().false_colour->high);
   EXPECT_TRUE(workbench.messages().empty());
 }
 
 TEST_F(LooksTest, AKeyGoesThroughTheToneCurves)
 {
   press(ImGuiKey_T);
-  EXPECT_EQ(look().tone, ToneCurve::filmic);
+  EXPECT_EQ(view_settings().tone, ToneCurve::filmic);
   EXPECT_EQ(texel(32, 12), bytes(static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.75)), static_cast<float>(filmic(0.125))));
   press(ImGuiKey_T);
-  EXPECT_EQ(look().tone, ToneCurve::false_colour);
+  EXPECT_EQ(view_settings().tone, ToneCurve::false_colour);
   // (32, 12) is (.75, .75, .125): Y = .2126 .75 + .7152 .75 + .0722 .125 = .7049
   const Rgb8 wanted = luminance_colour(0.704875, view().tone().range);
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(texel(32, 12)[c], wanted[c], 2);
   press(ImGuiKey_T);
-  EXPECT_EQ(look().tone, ToneCurve::standard);
+  EXPECT_EQ(view_settings().tone, ToneCurve::standard);
   EXPECT_EQ(texel(32, 12), bytes(0.75f, 0.75f, 0.125f));
 }
 
 TEST_F(LooksTest, FalseColourIsInWattsWhateverTheExposure)
 {
-  apply({command::SetLook{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.1, 10}}}});
+  apply({command::SetViewSettings{{.tone = ToneCurve::false_colour, .false_colour = LuminanceRange{0.1, 10}}}});
   const std::array<int, 3> before = texel(32, 12);
   press(ImGuiKey_E);
-  EXPECT_EQ(look().exposure_stops, 0.5);
+  EXPECT_EQ(view_settings().exposure_stops, 0.5);
   EXPECT_EQ(texel(32, 12), before);
   edit([&](preset::Preset& p) { p.white = 2; }); // the same numbers are twice the light
   frames(3);
@@ -141,8 +141,8 @@ TEST_F(LooksTest, KeysOfOneFrameDoNotUndoEachOther)
   imgui.key(ImGuiKey_T, true);
   imgui.key(ImGuiKey_L, true);
   frame();
-  EXPECT_EQ(look().exposure_stops, 0.5);
-  EXPECT_EQ(look().tone, ToneCurve::filmic);
+  EXPECT_EQ(view_settings().exposure_stops, 0.5);
+  EXPECT_EQ(view_settings().tone, ToneCurve::filmic);
   EXPECT_EQ(layer(), "direct");
 }
 
@@ -232,11 +232,11 @@ TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
 TEST(LooksOfASession, AreKept)
 {
   Session session;
-  session.chosen.look.tone = ToneCurve::false_colour;
-  session.chosen.look.false_colour = LuminanceRange{0.25, 64};
+  session.chosen.view_settings.tone = ToneCurve::false_colour;
+  session.chosen.view_settings.false_colour = LuminanceRange{0.25, 64};
   const std::string text = SessionText().of(session);
-  EXPECT_EQ(parse_session(text, "session.json").chosen.look, session.chosen.look);
-  EXPECT_EQ(parse_session(SessionText().of({}), "session.json").chosen.look, Look{});
+  EXPECT_EQ(parse_session(text, "session.json").chosen.view_settings, session.chosen.view_settings);
+  EXPECT_EQ(parse_session(SessionText().of({}), "session.json").chosen.view_settings, ViewSettings{});
   std::string other = text;
   other.replace(other.find("false_colour"), 5, "wrong");
   EXPECT_ANY_THROW(parse_session(other, "session.json"));

@@ -270,7 +270,7 @@ TEST_F(GizmoWindowTest, AnArrowMovesABall)
   {
     test::HeadlessWindow<test::SceneRuns> like(tall, "", file);
     const auto& resolution = before.scene.camera.resolution;
-    const Sight sight = *make_sight(before.scene.camera, place(Look{}, like.view().canvas(), resolution), resolution);
+    const Sight sight = *make_sight(before.scene.camera, place(ViewSettings{}, like.view().canvas(), resolution), resolution);
     const glm::dvec3 middle = to_vector(from);
     const Point at = *sight.to_screen(middle);
     like.click(at);

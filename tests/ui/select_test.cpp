@@ -25,8 +25,8 @@ protected:
   const preset::Scene& scene() const { return workbench.preset()->scene; }
   Sight sight() const
   {
-    const Look& look = workbench.chosen().look;
-    return *make_sight(scene().camera, place(look, view().canvas(), view().shown().size), view().shown().size);
+    const ViewSettings& view_settings = workbench.chosen().view_settings;
+    return *make_sight(scene().camera, place(view_settings, view().canvas(), view().shown().size), view().shown().size);
   }
   Point at(double x, double y, double z) const { return *sight().to_screen({x, y, z}); }
   Selection selected() const { return workbench.chosen().selection; }

@@ -107,8 +107,8 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
       states.push_back(preset::to_json(*window.workbench.preset()));
     }
     for (int i = 0; i < 20; ++i) window.workbench.apply({command::Undo{}});
-    Look look{.exposure_stops = 1.5};
-    window.workbench.apply({command::SetLook{look}, command::ChooseMetric{"mse"},
+    ViewSettings view_settings{.exposure_stops = 1.5};
+    window.workbench.apply({command::SetViewSettings{view_settings}, command::ChooseMetric{"mse"},
                             command::SetBookmarks{{{"a camera", window.workbench.preset()->scene.camera}}}});
     window.settle();
   } // not closed
@@ -118,7 +118,7 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
   ASSERT_NE(window.workbench.preset(), nullptr);
   EXPECT_TRUE(window.workbench.messages().empty());
   EXPECT_TRUE(window.workbench.edits()->modified());
-  EXPECT_EQ(window.workbench.chosen().look.exposure_stops, 1.5);
+  EXPECT_EQ(window.workbench.chosen().view_settings.exposure_stops, 1.5);
   EXPECT_EQ(window.workbench.chosen().error_metric, "mse");
   ASSERT_EQ(window.workbench.chosen().bookmarks.size(), 1u);
   EXPECT_EQ(window.workbench.chosen().bookmarks[0].camera, window.workbench.preset()->scene.camera);

@@ -11,7 +11,7 @@ namespace nephroid::ui::window_test {
 Placement placement_in_window(int width, int height, const std::string& preset, const std::array<int, 2>& picture)
 {
   const test::HeadlessWindow<> like({width, height}, "", preset);
-  return place(Look{}, like.view().canvas(), picture);
+  return place(ViewSettings{}, like.view().canvas(), picture);
 }
 
 /// Without a display.

@@ -185,7 +185,7 @@ Action panel_action(const PanelEntry& entry)
 
 constexpr double text_step = 1.1;
 
-void look(C c, Theme theme, double text_size) { c.push(command::SetAppearance{theme, text_size}); }
+void set_appearance(C c, Theme theme, double text_size) { c.push(command::SetAppearance{theme, text_size}); }
 bool is_light(C c) { return c.settings.theme == Theme::light; }
 
 std::vector<Action> window_actions()
@@ -195,13 +195,13 @@ std::vector<Action> window_actions()
   all.insert(all.end(),
              {{"Reset layout", 0, "Every panel of this engine back to its place, all of them open", has_preset, push<command::ResetLayout>},
               {"Light theme", 0, "Dark words on light panels, or the other way round; pictures stay on a dark ground", always,
-               [](C c) { look(c, is_light(c) ? Theme::dark : Theme::light, c.settings.text_size); }, nullptr, nullptr, is_light},
+               [](C c) { set_appearance(c, is_light(c) ? Theme::dark : Theme::light, c.settings.text_size); }, nullptr, nullptr, is_light},
               repeating({"Larger text", ctrl | ImGuiKey_Equal, "Everything in the window a tenth larger", always,
-                         [](C c) { look(c, c.settings.theme, c.settings.text_size * text_step); }}),
+                         [](C c) { set_appearance(c, c.settings.theme, c.settings.text_size * text_step); }}),
               repeating({"Smaller text", ctrl | ImGuiKey_Minus, "Everything in the window a tenth smaller", always,
-                         [](C c) { look(c, c.settings.theme, c.settings.text_size / text_step); }}),
+                         [](C c) { set_appearance(c, c.settings.theme, c.settings.text_size / text_step); }}),
               {"Text as the display has it", ctrl | ImGuiKey_0, "The size of text that the display asks for", always,
-               [](C c) { look(c, c.settings.theme, 1); }}});
+               [](C c) { set_appearance(c, c.settings.theme, 1); }}});
   return all;
 }
 

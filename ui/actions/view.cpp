@@ -12,17 +12,17 @@ namespace nephroid::ui {
 namespace {
 
 template <class Change>
-void look(C c, Change change)
+void change_view(C c, Change change)
 {
-  Look look = c.look();
-  change(look);
-  c.push(command::SetLook{look});
+  ViewSettings view_settings = c.view_settings();
+  change(view_settings);
+  c.push(command::SetViewSettings{view_settings});
 }
 
 template <int half_stops>
 void expose(C c)
 {
-  look(c, [](Look& l) { l.exposure_stops += half_stops / 2.0; });
+  change_view(c, [](ViewSettings& l) { l.exposure_stops += half_stops / 2.0; });
 }
 
 /// There is a picture in the View, the run's or another.
@@ -31,7 +31,7 @@ bool is_shown(C c) { return c.comparing.source() != nullptr; }
 void actual_size(C c)
 {
   const job::Picture& picture = *c.comparing.source();
-  look(c, [&](Look& l) {
+  change_view(c, [&](ViewSettings& l) {
     l.fit = false;
     l.zoom = 1;
     l.centre = {picture.width / 2.0, picture.height / 2.0};
@@ -59,13 +59,13 @@ void next_layer(C c)
 
 Action tone_action(const char* name, const char* help, ToneCurve curve)
 {
-  return switching({name, 0, help, always, [curve](C c) { look(c, [&](Look& l) { l.tone = curve; }); }},
-                   [curve](C c) { return c.chosen.look.tone == curve; });
+  return switching({name, 0, help, always, [curve](C c) { change_view(c, [&](ViewSettings& l) { l.tone = curve; }); }},
+                   [curve](C c) { return c.chosen.view_settings.tone == curve; });
 }
 
 void next_tone(C c)
 {
-  look(c, [](Look& l) { l.tone = static_cast<ToneCurve>((static_cast<int>(l.tone) + 1) % tone_curves); });
+  change_view(c, [](ViewSettings& l) { l.tone = static_cast<ToneCurve>((static_cast<int>(l.tone) + 1) % tone_curves); });
 }
 
 bool has_pixel(C c) { return c.chosen.pixel.has_value(); }
@@ -77,9 +77,9 @@ void inspect(C c)
 {
   if (c.chosen.pixel) return c.push(command::InspectPixel{});
   const job::Picture& picture = *c.comparing.source();
-  const Look look = c.look();
+  const ViewSettings view_settings = c.view_settings();
   const auto middle = [&](std::size_t i, int length) {
-    return std::clamp(look.fit ? length / 2 : static_cast<int>(std::clamp(look.centre[i], 0.0, 1e9)), 0, length - 1);
+    return std::clamp(view_settings.fit ? length / 2 : static_cast<int>(std::clamp(view_settings.centre[i], 0.0, 1e9)), 0, length - 1);
   };
   c.push(command::InspectPixel{std::array{middle(0, picture.width), middle(1, picture.height)}});
 }
@@ -109,11 +109,11 @@ void whole_region(C c)
 std::vector<Action> view_actions()
 {
   return {
-      {"Fit", ImGuiKey_F, "The whole picture in the panel", is_shown, [](C c) { look(c, [](Look& l) { l.fit = true; }); }},
+      {"Fit", ImGuiKey_F, "The whole picture in the panel", is_shown, [](C c) { change_view(c, [](ViewSettings& l) { l.fit = true; }); }},
       {"Actual size", shift | ImGuiKey_F, "One pixel of the picture is one of the screen", is_shown, actual_size},
       repeating({"Brighter", ImGuiKey_E, "Half a stop more exposure", always, expose<1>}),
       repeating({"Darker", shift | ImGuiKey_E, "Half a stop less exposure", always, expose<-1>}),
-      {"Exposure 0", ImGuiKey_0, "The picture as image.png shows it", always, [](C c) { look(c, [](Look& l) { l.exposure_stops = 0; }); }},
+      {"Exposure 0", ImGuiKey_0, "The picture as image.png shows it", always, [](C c) { change_view(c, [](ViewSettings& l) { l.exposure_stops = 0; }); }},
       {"Next layer", ImGuiKey_L, "All of the light, then each layer of the picture", has_layers, next_layer<1>, no_layers},
       {"Previous layer", shift | ImGuiKey_L, "The same the other way round", has_layers, next_layer<-1>, no_layers},
       {"Next tone curve", ImGuiKey_T, "As image.png, filmic, false colour", always, next_tone},

@@ -146,14 +146,14 @@ void InspectorPanel::draw_pixel(const Context& context)
 void InspectorPanel::draw_neighbours(const Context& context)
 {
   const HeldPicture picture = enlarged(context);
-  const Look& look = context.chosen.look;
+  const ViewSettings& view_settings = context.chosen.view_settings;
   const std::array<int, 2> pixel = *context.chosen.pixel;
   const double white = context.preset() ? context.preset()->white : 1;
   Neighbours& n = neighbours_;
   constexpr int across = 2 * reach + 1;
-  if (picture.owner && (n.owner != picture.owner || n.pixel != pixel || n.look != look || n.white != white)) {
-    n = {picture.owner, pixel, look, white, std::vector<unsigned char>(std::size_t{4} * across * across, 0)};
-    const Tone tone = tone_of(look, white, picture.pixels.rgb);
+  if (picture.owner && (n.owner != picture.owner || n.pixel != pixel || n.view_settings != view_settings || n.white != white)) {
+    n = {picture.owner, pixel, view_settings, white, std::vector<unsigned char>(std::size_t{4} * across * across, 0)};
+    const Tone tone = tone_of(view_settings, white, picture.pixels.rgb);
     for (int i = 0; i < across * across; ++i) {
       const int x = pixel[0] - reach + i % across, y = pixel[1] - reach + i / across;
       if (x < 0 || y < 0 || x >= picture.pixels.width || y >= picture.pixels.height) continue;

@@ -30,7 +30,7 @@ private:
   struct Neighbours {
     std::shared_ptr<const void> owner;
     std::array<int, 2> pixel{};
-    Look look;
+    ViewSettings view_settings;
     double white = 1;
     std::vector<unsigned char> rgba; ///< transparent outside of the picture
   };

@@ -32,14 +32,14 @@ struct LuminanceRange {
 };
 
 /// How the picture is shown. Nothing here needs a new run.
-struct Look {
+struct ViewSettings {
   double exposure_stops = 0; ///< -20..20
   ToneCurve tone = ToneCurve::standard;
   std::optional<LuminanceRange> false_colour = {}; ///< nothing: automatic_range of what is shown
   bool fit = true;                                 ///< the whole picture in the panel; zoom and centre are not used then
   double zoom = 1;                                 ///< screen pixels a picture pixel
   std::array<double, 2> centre{0, 0};              ///< the picture's point, in pixels, that is at the panel's middle
-  bool operator==(const Look&) const = default;
+  bool operator==(const ViewSettings&) const = default;
 };
 
 /// How the View shows two pictures. split: both in one place, cut at a line that is dragged.
@@ -134,8 +134,8 @@ struct Cancel {};
 struct Pause {
   bool on = true;
 };
-struct SetLook {
-  Look look;
+struct SetViewSettings {
+  ViewSettings view_settings;
 };
 /// Parts of the Comparison, one command each: two keys in one frame must not undo each other.
 struct Flip {
@@ -279,7 +279,7 @@ struct Quit {
 
 using Command =
     std::variant<command::Open, command::OpenMap, command::New, command::Edit, command::SetSweep, command::StartSweep, command::StopSweep,
-                 command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel, command::Pause, command::SetLook,
+                 command::EndGesture, command::Undo, command::Redo, command::Restart, command::Cancel, command::Pause, command::SetViewSettings,
                  command::Flip, command::CompareWith, command::ShowPicture, command::Arrange, command::MoveSplit, command::ShowDifference,
                  command::ShowLayer, command::InspectPixel, command::SelectRegion, command::ShowLines, command::PinRun, command::PinFile,
                  command::ChangePin, command::Unpin, command::ChooseMetric, command::ChooseMaterial, command::LoadDispersion,

@@ -20,7 +20,7 @@ namespace nephroid::ui {
 
 /// What a person chose to see. Nothing here needs a new run.
 struct Chosen {
-  Look look;
+  ViewSettings view_settings;
   std::string error_metric;                     ///< to be plotted; empty: the run's own. Not every run has it.
   std::optional<std::array<int, 2>> pixel;      ///< that is inspected: column and row; may lie outside of the picture
   std::optional<PixelRegion> region;            ///< that there are statistics of; may reach out of the picture, is never empty
@@ -53,11 +53,11 @@ struct Context {
   std::string engine() const { return std::string(edits->current().settings.engine()); }
   void push(Command command) const { commands.push_back(std::move(command)); }
   /// The look as the commands of this frame leave it: two keys in one frame must not undo each other.
-  Look look() const
+  ViewSettings view_settings() const
   {
     for (auto c = commands.rbegin(); c != commands.rend(); ++c)
-      if (const auto* set = std::get_if<command::SetLook>(&*c)) return set->look;
-    return chosen.look;
+      if (const auto* set = std::get_if<command::SetViewSettings>(&*c)) return set->view_settings;
+    return chosen.view_settings;
   }
   void note(std::string line) const { push(command::Report{std::move(line), false}); }
   /// The preset as change(preset) makes it; gesture and live as in command::Edit. Where a preset is open.

@@ -8,7 +8,7 @@
 
 namespace nephroid::ui {
 
-FileWatch::FileWatch() : thread_([this](const std::stop_token& stop) { look(stop); }) {}
+FileWatch::FileWatch() : thread_([this](const std::stop_token& stop) { poll(stop); }) {}
 
 void FileWatch::watch(std::shared_ptr<const preset::Preset> preset, bool just_read)
 {
@@ -36,7 +36,7 @@ FileWatch::Stamp FileWatch::stamp_of(const std::filesystem::path& file)
   return std::pair{time, bytes};
 }
 
-void FileWatch::look(const std::stop_token& stop)
+void FileWatch::poll(const std::stop_token& stop)
 {
   constexpr std::chrono::milliseconds look_every{300};
   std::map<std::filesystem::path, Seen> seen;

@@ -31,7 +31,7 @@ private:
     Stamp known; ///< what nobody needs to be told of any more
     Stamp last;  ///< at the look before: a file that is being written differs from look to look
   };
-  void look(const std::stop_token& stop);
+  void poll(const std::stop_token& stop);
   static Stamp stamp_of(const std::filesystem::path& file);
 
   std::mutex mutex_;

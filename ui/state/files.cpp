@@ -61,7 +61,7 @@ std::string write_shown(const fs::path& file, const PictureToSave& shown)
     image::write_png_bytes(file, pixels.width, pixels.height, shown.map->rgba);
     return fmt::format(", a difference whose colours end at {:.3g}", shown.map->scale);
   }
-  const Tone tone = tone_of(shown.look, shown.white, pixels.rgb);
+  const Tone tone = tone_of(shown.view_settings, shown.white, pixels.rgb);
   if (tone.curve == ToneCurve::standard) {
     image::write_png(file, pixels.width, pixels.height, {pixels.rgb.begin(), pixels.rgb.end()}, tone.exposure_stops);
     return {};

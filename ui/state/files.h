@@ -46,7 +46,7 @@ std::filesystem::path make_new_folder(const std::filesystem::path& path);
 struct PictureToSave {
   HeldPicture picture;
   std::shared_ptr<const ShownDifference> map; ///< in place of the picture; null: none
-  Look look;
+  ViewSettings view_settings;
   double white = 1;    ///< preset::Preset::white
   std::string why_not; ///< there is none: a sentence without a full stop
 };

@@ -37,19 +37,19 @@ void read_within(const Json& values, double low, double high, std::array<T, N>& 
   for (std::size_t i = 0; i < N; ++i) to[i] = static_cast<T>(within(values.at(i), low, high));
 }
 
-Look read_look(const Json& value)
+ViewSettings read_view_settings(const Json& value)
 {
-  Look look;
-  look.exposure_stops = within(value.at("exposure_stops"), -20, 20);
+  ViewSettings view_settings;
+  view_settings.exposure_stops = within(value.at("exposure_stops"), -20, 20);
   const auto tone = std::ranges::find(tone_names, value.value("tone", std::string(tone_names[0])));
   if (tone == tone_names.end()) throw std::out_of_range("there is no such tone curve");
-  look.tone = static_cast<ToneCurve>(tone - tone_names.begin());
+  view_settings.tone = static_cast<ToneCurve>(tone - tone_names.begin());
   if (value.contains("false_colour"))
-    look.false_colour = valid_range({value["false_colour"].at(0).get<double>(), value["false_colour"].at(1).get<double>()});
-  look.fit = value.at("fit").get<bool>();
-  look.zoom = within(value.at("zoom"), 1.0 / 1024, 1024);
-  read_within(value.at("centre"), -1e6, 1e6, look.centre);
-  return look;
+    view_settings.false_colour = valid_range({value["false_colour"].at(0).get<double>(), value["false_colour"].at(1).get<double>()});
+  view_settings.fit = value.at("fit").get<bool>();
+  view_settings.zoom = within(value.at("zoom"), 1.0 / 1024, 1024);
+  read_within(value.at("centre"), -1e6, 1e6, view_settings.centre);
+  return view_settings;
 }
 
 Bookmark read_bookmark(const Json& value)
@@ -191,18 +191,18 @@ std::string SessionText::of(const Session& session)
     Json patch = before ? Json::diff(before->json, json) : Json();
     return used.emplace_back(std::make_shared<const Known>(Known{preset, before_preset, std::move(json), std::move(patch)}));
   };
-  const Look& look = session.chosen.look;
+  const ViewSettings& view_settings = session.chosen.view_settings;
   Json text{{"version", session_version},
             {"closed", session.closed},
             {"look",
-             {{"exposure_stops", look.exposure_stops},
-              {"tone", tone_names[static_cast<std::size_t>(look.tone)]},
-              {"fit", look.fit},
-              {"zoom", look.zoom},
-              {"centre", look.centre}}},
+             {{"exposure_stops", view_settings.exposure_stops},
+              {"tone", tone_names[static_cast<std::size_t>(view_settings.tone)]},
+              {"fit", view_settings.fit},
+              {"zoom", view_settings.zoom},
+              {"centre", view_settings.centre}}},
             {"error_metric", session.chosen.error_metric},
             {"material", session.chosen.material}};
-  if (look.false_colour) text["look"]["false_colour"] = {look.false_colour->low, look.false_colour->high};
+  if (view_settings.false_colour) text["look"]["false_colour"] = {view_settings.false_colour->low, view_settings.false_colour->high};
   text["pins"] = Json::array();
   for (const Session::Pin& pin : session.pins)
     text["pins"].push_back({{"folder", pin.folder}, {"name", pin.name}, {"colour", pin.colour}, {"shown", pin.shown}});
@@ -246,7 +246,7 @@ Session parse_session(const std::string& text, const std::string& source)
   return read_session(text, source, [](const Json& value) {
     Session session;
     session.closed = value.at("closed").get<bool>();
-    session.chosen.look = read_look(value.at("look"));
+    session.chosen.view_settings = read_view_settings(value.at("look"));
     session.chosen.error_metric = value.at("error_metric").get<std::string>();
     session.chosen.material = value.at("material").get<std::string>();
     for (const Json& pin : value.at("pins"))

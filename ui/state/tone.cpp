@@ -138,10 +138,10 @@ double filmic(double linear)
   return std::min(hable(brightening * std::min(linear, white_point)) / hable(white_point), 1.0);
 }
 
-Tone tone_of(const Look& look, double white, std::span<const float> rgb)
+Tone tone_of(const ViewSettings& view_settings, double white, std::span<const float> rgb)
 {
-  if (look.tone != ToneCurve::false_colour) return {look.tone, look.exposure_stops, {}, 1};
-  return {look.tone, 0, look.false_colour ? *look.false_colour : automatic_range(rgb, white), white};
+  if (view_settings.tone != ToneCurve::false_colour) return {view_settings.tone, view_settings.exposure_stops, {}, 1};
+  return {view_settings.tone, 0, view_settings.false_colour ? *view_settings.false_colour : automatic_range(rgb, white), white};
 }
 
 LuminanceRange automatic_range(std::span<const float> rgb, double white)

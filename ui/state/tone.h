@@ -23,7 +23,7 @@ struct Tone {
   bool operator==(const Tone&) const = default;
 };
 /// rgb: the picture, for the automatic range.
-Tone tone_of(const Look& look, double white, std::span<const float> rgb);
+Tone tone_of(const ViewSettings& view_settings, double white, std::span<const float> rgb);
 
 /// From the luminance that 1 % of the pixels are below to the one that 99.9 % are, of those above 0, widened to round numbers (1, 2, 5
 /// times a power of ten) and to a decade at least, 8 decades at most. 0.01 .. 1 where no pixel is above 0.

@@ -78,7 +78,7 @@ void Workbench::let_go()
   messages_.dismiss_errors_until(last_before_commands_);
   comparing_.forget();
   run_.forget();
-  chosen_.look = Look{};
+  chosen_.view_settings = ViewSettings{};
   chosen_.region.reset();
   chosen_.lines.clear();
   carry_out(command::InspectPixel{});
@@ -192,11 +192,11 @@ void Workbench::carry_out(const command::Cancel&)
     run_.cancel();
 }
 
-void Workbench::carry_out(const command::SetLook& c)
+void Workbench::carry_out(const command::SetViewSettings& c)
 {
-  chosen_.look = c.look;
-  if (c.look.false_colour) chosen_.look.false_colour = valid_range(*c.look.false_colour);
-  chosen_.look.exposure_stops = std::clamp(c.look.exposure_stops, -20.0, 20.0);
+  chosen_.view_settings = c.view_settings;
+  if (c.view_settings.false_colour) chosen_.view_settings.false_colour = valid_range(*c.view_settings.false_colour);
+  chosen_.view_settings.exposure_stops = std::clamp(c.view_settings.exposure_stops, -20.0, 20.0);
 }
 
 void Workbench::carry_out(const command::InspectPixel& c)
@@ -244,7 +244,7 @@ void Workbench::carry_out(const command::SavePreset& c)
   add_recent(c.file);
   const std::filesystem::path thumbnail = thumbnail_of(c.file, recent_.thumbnails());
   if (run_.snapshot() && !thumbnail.empty() && preset::shipped_name(c.file).empty()) // those of shipped presets are shipped
-    save(thumbnail, [thumbnail, picture = run_.snapshot()->picture, exposure_stops = chosen_.look.exposure_stops] {
+    save(thumbnail, [thumbnail, picture = run_.snapshot()->picture, exposure_stops = chosen_.view_settings.exposure_stops] {
       try {
         write_thumbnail(thumbnail, *picture, exposure_stops);
         return std::string();
@@ -267,11 +267,11 @@ PictureToSave Workbench::shown_picture() const
 {
   const Comparison& comparison = comparing_.comparison();
   const double white = edits_ ? edits_->current().white : 1;
-  if (comparison.flip) return {comparing_.other_picture(), {}, chosen_.look, white, comparing_.why_not()};
-  if (!comparison.difference) return {comparing_.picture(), {}, chosen_.look, white, comparing_.why_no_picture()};
+  if (comparison.flip) return {comparing_.other_picture(), {}, chosen_.view_settings, white, comparing_.why_not()};
+  if (!comparison.difference) return {comparing_.picture(), {}, chosen_.view_settings, white, comparing_.why_no_picture()};
   const auto& map = comparing_.difference();
   if (!map) return {{}, {}, {}, 1, "the difference is not computed yet"};
-  return {map->of.picture, map, chosen_.look, white, map->error};
+  return {map->of.picture, map, chosen_.view_settings, white, map->error};
 }
 
 void Workbench::carry_out(const command::OpenResult& c)

@@ -89,7 +89,7 @@ private:
   }
   void carry_out(const command::Cancel&);
   void carry_out(const command::Pause& c) { run_.pause(c.on); }
-  void carry_out(const command::SetLook& c);
+  void carry_out(const command::SetViewSettings& c);
   void carry_out(const command::InspectPixel& c);
   void carry_out(const command::SelectRegion& c);
   void carry_out(const command::ShowLines& c) { chosen_.lines = c.lines; }

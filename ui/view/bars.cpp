@@ -34,14 +34,14 @@ void draw_layer_choice(const Context& context, WidgetPlaces& places)
 
 void draw_tone_choice(const Context& context, WidgetPlaces& places)
 {
-  Look look = context.look();
-  const auto now = static_cast<std::size_t>(look.tone);
+  ViewSettings view_settings = context.view_settings();
+  const auto now = static_cast<std::size_t>(view_settings.tone);
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
   Combo list("##tone", tones.at(now).name, &places, "tone");
   for (std::size_t i = 0; i < tones.size(); ++i)
     if (list.entry(tones[i].name, i == now, tones[i].help)) {
-      look.tone = static_cast<ToneCurve>(i);
-      context.push(command::SetLook{look});
+      view_settings.tone = static_cast<ToneCurve>(i);
+      context.push(command::SetViewSettings{view_settings});
     }
 }
 
@@ -57,11 +57,11 @@ bool draw_number(const char* label, double& value)
 void draw_range_choice(const Context& context, const LuminanceRange& shown, WidgetPlaces& places)
 {
   const auto set = [&](const std::optional<LuminanceRange>& range) {
-    Look look = context.look();
-    look.false_colour = range;
-    context.push(command::SetLook{look});
+    ViewSettings view_settings = context.view_settings();
+    view_settings.false_colour = range;
+    context.push(command::SetViewSettings{view_settings});
   };
-  bool automatic = !context.chosen.look.false_colour;
+  bool automatic = !context.chosen.view_settings.false_colour;
   if (places.checkbox("Auto range", &automatic, "auto range",
                       "From where 1 % of the pixels are below to where 99.9 % are; else as typed here."))
     set(automatic ? std::nullopt : std::optional(shown));
@@ -239,7 +239,7 @@ void go_to_bookmark(const Context& context, std::size_t index)
   if (camera != now) context.edit("go to " + name, [&](preset::Preset& p) { p.scene.camera = camera; });
 }
 
-void draw_look_bar(const Context& context, const Tone& tone, WidgetPlaces& places)
+void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& places)
 {
   draw_label("Layer");
   draw_layer_choice(context, places);

@@ -20,7 +20,7 @@ const char* metric_name(measure::DifferenceMetric metric);
 std::string metrics_as_text(const Context& context);
 
 /// What is shown and how: layer, tone curve, the range of false colour. tone: that of the picture that is shown.
-void draw_look_bar(const Context& context, const Tone& tone, WidgetPlaces& places);
+void draw_view_bar(const Context& context, const Tone& tone, WidgetPlaces& places);
 /// What is shown, what it is compared with, and how: flip, split, side by side, difference and its metric. places: "shown" and "other".
 void draw_comparison_bar(const Context& context, WidgetPlaces& places);
 /// How far the two pictures are from each other, where that is wanted: a line; all metrics under the mouse. places: "metrics".

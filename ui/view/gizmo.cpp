@@ -310,7 +310,7 @@ void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std:
 {
   const preset::Preset* preset = context.preset();
   sight_.reset();
-  if (preset && has_scene(*preset)) sight_ = make_sight(preset->scene.camera, place(context.chosen.look, canvas, picture), picture);
+  if (preset && has_scene(*preset)) sight_ = make_sight(preset->scene.camera, place(context.chosen.view_settings, canvas, picture), picture);
   const Selection selection = context.selection();
   const Comparison& comparison = context.comparing.comparison();
   const bool other_picture = comparison.flip || comparison.shown != 0; // nothing over that: one looks at it to compare

@@ -70,7 +70,7 @@ void ViewPanel::draw(const Context& context)
   if (ImGui::GetContentRegionAvail().y > 16 * ImGui::GetFontSize()) {
     bars_.begin();
     bars_.bar([&] { draw_toolbar(context); });
-    bars_.bar([&] { draw_look_bar(context, first_.tone, places_); });
+    bars_.bar([&] { draw_view_bar(context, first_.tone, places_); });
     bars_.bar([&] { draw_comparison_bar(context, places_); });
     bars_.bar([&] { draw_selection_bar(context, places_); });
     draw_metrics(context, places_);
@@ -88,8 +88,8 @@ void ViewPanel::draw(const Context& context)
   if (!held_ || pressed_) on_second_ = seen_second_.size[0] > 0 && mouse()[0] >= seen_second_.corner[0];
   take_line(context, area);
   const double white = context.preset() ? context.preset()->white : 1;
-  refresh(first_, shown_, context.chosen.look, white);
-  refresh(second_, beside_, context.chosen.look, white, shown_.rgb.empty() ? nullptr : &first_.tone);
+  refresh(first_, shown_, context.chosen.view_settings, white);
+  refresh(second_, beside_, context.chosen.view_settings, white, shown_.rgb.empty() ? nullptr : &first_.tone);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
@@ -138,13 +138,13 @@ void ViewPanel::take_line(const Context& context, const Canvas& area)
 
 void ViewPanel::draw_toolbar(const Context& context)
 {
-  Look look = context.look();
-  float stops = static_cast<float>(look.exposure_stops);
+  ViewSettings view_settings = context.view_settings();
+  float stops = static_cast<float>(view_settings.exposure_stops);
   draw_label("Exposure");
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 12);
   if (ImGui::SliderFloat("##exposure", &stops, -10, 10, "%+.2f stops", ImGuiSliderFlags_NoRoundToFormat)) {
-    look.exposure_stops = stops;
-    context.push(command::SetLook{look});
+    view_settings.exposure_stops = stops;
+    context.push(command::SetViewSettings{view_settings});
   }
   tooltip("Brighter E, darker Shift+E, as it is 0. Ctrl+click to type. The run goes on.");
   if (!context.preset()) return;
@@ -152,25 +152,25 @@ void ViewPanel::draw_toolbar(const Context& context)
   ImGui::SameLine(0, ImGui::GetFontSize());
   action_button("Fit", context);
   ImGui::SameLine();
-  ImGui::TextDisabled("%.0f %%   %d x %d", 100 * place(look, canvas_, size).scale, size[0], size[1]);
+  ImGui::TextDisabled("%.0f %%   %d x %d", 100 * place(view_settings, canvas_, size).scale, size[0], size[1]);
 }
 
 /// like: the tone of the picture that it is held against; null: its own.
-void ViewPanel::refresh(Toned& toned, const ShownPicture& shown, const Look& look, double white, const Tone* like)
+void ViewPanel::refresh(Toned& toned, const ShownPicture& shown, const ViewSettings& view_settings, double white, const Tone* like)
 {
   if (!shown.owner) return;
   const bool is_linear = !shown.rgb.empty();
-  const bool same_look = look.exposure_stops == toned.look.exposure_stops && look.tone == toned.look.tone &&
-                         look.false_colour == toned.look.false_colour && white == toned.white && (!like || *like == toned.tone);
-  if (shown.owner == toned.owner && (!is_linear || same_look)) return;
+  const bool same_settings = view_settings.exposure_stops == toned.view_settings.exposure_stops && view_settings.tone == toned.view_settings.tone &&
+                         view_settings.false_colour == toned.view_settings.false_colour && white == toned.white && (!like || *like == toned.tone);
+  if (shown.owner == toned.owner && (!is_linear || same_settings)) return;
   const std::span<unsigned char> bytes = toned.texture.edit(shown.size[0], shown.size[1]);
   if (is_linear) {
-    toned.tone = like ? *like : tone_of(look, white, shown.rgb);
+    toned.tone = like ? *like : tone_of(view_settings, white, shown.rgb);
     toned_pixels(shown.rgb, toned.tone, bytes);
   } else
     std::copy(shown.rgba.begin(), shown.rgba.end(), bytes.begin());
   toned.owner = shown.owner;
-  toned.look = look;
+  toned.view_settings = view_settings;
   toned.white = white;
 }
 
@@ -291,7 +291,7 @@ void ViewPanel::start_drag(const Context& context)
   drag_from_ = pointer();
   moved_ = false;
   camera_at_start_ = engine::camera_of(*context.preset());
-  look_at_start_ = context.chosen.look;
+  settings_at_start_ = context.chosen.view_settings;
   gestures_.begin();
 }
 
@@ -302,12 +302,12 @@ void ViewPanel::continue_drag(const Context& context)
   moved_ = moved_ || std::hypot(delta[0], delta[1]) > click_trembles * scale();
   if (moved_ && (step.x != 0 || step.y != 0)) {
     if (drag_ == Drag::move_picture) {
-      const Look moved = dragged(look_at_start_, canvas_, shown_.size, delta);
-      Look look = context.look();
-      look.fit = moved.fit;
-      look.zoom = moved.zoom;
-      look.centre = moved.centre;
-      context.push(command::SetLook{look});
+      const ViewSettings moved = dragged(settings_at_start_, canvas_, shown_.size, delta);
+      ViewSettings view_settings = context.view_settings();
+      view_settings.fit = moved.fit;
+      view_settings.zoom = moved.zoom;
+      view_settings.centre = moved.centre;
+      context.push(command::SetViewSettings{view_settings});
     } else if (drag_ != Drag::mark)
       move_camera(context, delta);
   }
@@ -350,7 +350,7 @@ void ViewPanel::use_wheel(const Context& context)
 {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.KeyCtrl || context.comparing.comparison().shown != 0) {
-    context.push(command::SetLook{zoomed(context.look(), canvas_, shown_.size, pointer(), std::pow(notch, io.MouseWheel))});
+    context.push(command::SetViewSettings{zoomed(context.view_settings(), canvas_, shown_.size, pointer(), std::pow(notch, io.MouseWheel))});
     return;
   }
   const double now = ImGui::GetTime();

@@ -12,7 +12,7 @@ namespace nephroid::ui {
 /// What the View shows now: the run's picture or an opened one, what that is compared with, or the map of their difference.
 struct ShownPicture {
   std::shared_ptr<const void> owner;   ///< of the pixels below; null: there is nothing to show. Other pixels have another owner.
-  std::span<const float> rgb;          ///< linear, to be shown with the look's exposure; or
+  std::span<const float> rgb;          ///< linear, to be shown with the settings' exposure; or
   std::span<const unsigned char> rgba; ///< as it is, 4 bytes a pixel
   std::array<int, 2> size{1, 1};       ///< of the picture that is chosen to be shown, also in place of what it is compared with; before the
                                        ///< first, the preset's
@@ -55,7 +55,7 @@ private:
     PictureTexture texture;
     std::shared_ptr<const void> owner; ///< what it shows,
     Tone tone;                         ///< with this tone;
-    Look look;                         ///< that is made of this look
+    ViewSettings view_settings;                         ///< that is made with these settings
     double white = 1;                  ///< and this white
   };
 
@@ -66,7 +66,7 @@ private:
   void draw_picture(const ShownPicture& shown, const Toned& toned, const Placement& placement) const;
   void draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen, const Placement& placement) const;
   void draw_pixel_value(const Context& context, const Canvas& area);
-  Placement placed(const Context& context) const { return place(context.chosen.look, canvas_, shown_.size); }
+  Placement placed(const Context& context) const { return place(context.chosen.view_settings, canvas_, shown_.size); }
   Point pointer() const;
   std::optional<std::array<int, 2>> pointed_pixel(const Context& context) const;
   void own_keys(const Context& context);
@@ -76,7 +76,7 @@ private:
   void move_camera(const Context& context, const Point& delta) const;
   void mark(const Context& context);
   void use_wheel(const Context& context);
-  static void refresh(Toned& toned, const ShownPicture& shown, const Look& look, double white, const Tone* like = nullptr);
+  static void refresh(Toned& toned, const ShownPicture& shown, const ViewSettings& view_settings, double white, const Tone* like = nullptr);
 
   Canvas canvas_;                   ///< that the first picture is placed in
   Canvas seen_first_, seen_second_; ///< the parts of the panel in which the two are seen
@@ -95,7 +95,7 @@ private:
   Point drag_from_{0, 0};
   bool marks_region_ = false;      ///< the mouse went too far for a click
   preset::Camera camera_at_start_; ///< a drag is measured from its start, so that rounding does not add up
-  Look look_at_start_;
+  ViewSettings settings_at_start_;
   Gestures gestures_{title};
   double last_wheel_s_ = -1; ///< turns of the wheel in quick succession are one gesture
   bool hovered_ = false;

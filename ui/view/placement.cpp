@@ -7,41 +7,41 @@
 namespace nephroid::ui {
 namespace {
 
-Placement exact_place(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture)
+Placement exact_place(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture)
 {
   const double width = picture[0], height = picture[1];
-  const Point centre = look.fit ? Point{width / 2, height / 2} : look.centre;
+  const Point centre = view_settings.fit ? Point{width / 2, height / 2} : view_settings.centre;
   Placement placement;
-  placement.scale = look.fit ? std::max(1e-3, std::min(canvas.size[0] / width, canvas.size[1] / height)) : look.zoom;
+  placement.scale = view_settings.fit ? std::max(1e-3, std::min(canvas.size[0] / width, canvas.size[1] / height)) : view_settings.zoom;
   for (int axis = 0; axis < 2; ++axis)
     placement.origin[axis] = canvas.corner[axis] + canvas.size[axis] / 2 - placement.scale * centre[axis];
   return placement;
 }
 
 /// The same picture on the screen, said by zoom and centre instead of fit.
-Look explicit_look(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture)
+ViewSettings explicit_settings(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture)
 {
-  if (!look.fit) return look;
-  Look said = look;
+  if (!view_settings.fit) return view_settings;
+  ViewSettings said = view_settings;
   said.fit = false;
-  said.zoom = exact_place(look, canvas, picture).scale;
+  said.zoom = exact_place(view_settings, canvas, picture).scale;
   said.centre = {picture[0] / 2.0, picture[1] / 2.0};
   return said;
 }
 
 } // namespace
 
-Placement place(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture)
+Placement place(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture)
 {
-  Placement placement = exact_place(look, canvas, picture);
+  Placement placement = exact_place(view_settings, canvas, picture);
   // Whole pixels of the screen: at 100 % the texture is then shown as it is, not interpolated.
   for (double& coordinate : placement.origin) coordinate = std::round(coordinate);
   return placement;
 }
 
-Look zoomed(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen, double factor)
+ViewSettings zoomed(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen, double factor)
 {
-  Look next = explicit_look(look, canvas, picture);
+  ViewSettings next = explicit_settings(view_settings, canvas, picture);
   const Point still = exact_place(next, canvas, picture).to_picture(screen);
   next.zoom = std::clamp(next.zoom * factor, 1.0 / 64, 256.0);
   for (int axis = 0; axis < 2; ++axis)
@@ -49,9 +49,9 @@ Look zoomed(const Look& look, const Canvas& canvas, const std::array<int, 2>& pi
   return next;
 }
 
-Look dragged(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen_delta)
+ViewSettings dragged(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen_delta)
 {
-  Look next = explicit_look(look, canvas, picture);
+  ViewSettings next = explicit_settings(view_settings, canvas, picture);
   for (int axis = 0; axis < 2; ++axis) next.centre[axis] -= screen_delta[axis] / next.zoom;
   return next;
 }

@@ -21,11 +21,11 @@ struct Canvas {
 };
 
 /// sizes in pixels, at least 1.
-Placement place(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture);
+Placement place(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture);
 /// The look after zooming by factor such that the picture's point under `screen` stays there. The scale stays in 1/64..256.
-Look zoomed(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen, double factor);
+ViewSettings zoomed(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen, double factor);
 /// The look after dragging the picture by `screen_delta`.
-Look dragged(const Look& look, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen_delta);
+ViewSettings dragged(const ViewSettings& view_settings, const Canvas& canvas, const std::array<int, 2>& picture, const Point& screen_delta);
 /// The pixel under a point of the screen; nothing outside of the picture.
 std::optional<std::array<int, 2>> pixel_at(const Placement& placement, const std::array<int, 2>& picture, const Point& screen);
 /// The pixels between two points of the screen, both included; nothing where none is in the picture.

@@ -148,7 +148,7 @@ std::optional<RowsEdit> RowEditor::follow(const RowGesture& gesture, std::vector
   return std::nullopt;
 }
 
-RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<std::size_t>& marked, const RowLook& look)
+RowGesture RowHandles::draw(const std::vector<Row>& rows, const std::optional<std::size_t>& marked, const RowStyle& look)
 {
   using Kind = RowGesture::Kind;
   RowGesture gesture;

@@ -72,7 +72,7 @@ private:
   bool removed_ = false; ///< a row, in this frame: what the mouse does is about rows as they were
 };
 
-struct RowLook {
+struct RowStyle {
   std::uint32_t colour = 0, marked = 0;      ///< IM_COL32
   std::string (*text)(const Row&) = nullptr; ///< what is said of a row under the mouse
   double unit = 1;                           ///< of a row's value: what is 1 on the plot's y axis
@@ -83,7 +83,7 @@ struct RowLook {
 class RowHandles {
 public:
   /// In the plot in hand; rows out of its sight are not drawn.
-  RowGesture draw(const std::vector<Row>& rows, const std::optional<std::size_t>& marked, const RowLook& look);
+  RowGesture draw(const std::vector<Row>& rows, const std::optional<std::size_t>& marked, const RowStyle& look);
   /// Where the plot has no rows to take.
   void leave() { *this = {}; }
 

@@ -35,7 +35,7 @@ Ends with_room(const Ends& ends, bool log)
 
 } // namespace
 
-HistoryLines history_lines(const job::Curve& curve, const HistoryLook& look)
+HistoryLines history_lines(const job::Curve& curve, const HistoryPlotStyle& look)
 {
   const auto found = std::find(curve.columns.begin(), curve.columns.end(), "seconds");
   const auto seconds = static_cast<std::size_t>(found - curve.columns.begin());

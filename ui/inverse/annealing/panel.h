@@ -25,13 +25,13 @@ struct HistoryLines {
   std::vector<HistoryLine> lines;
 };
 
-struct HistoryLook {
+struct HistoryPlotStyle {
   bool log = true;
   bool seconds = false; ///< drawn over the column "seconds" where the curve has one; else over the curve's first
 };
 
 /// Every column of a curve but its first and "seconds". What is not finite is left out, and on a log axis what is not above 0.
-HistoryLines history_lines(const job::Curve& curve, const HistoryLook& look);
+HistoryLines history_lines(const job::Curve& curve, const HistoryPlotStyle& look);
 
 class HistoryPlot {
 public:
@@ -71,7 +71,7 @@ private:
   void draw_facet_map(const std::string& picture, const ImVec2& size);
   void draw_facet_text() const;
 
-  HistoryLook look_;
+  HistoryPlotStyle look_;
   std::map<std::string, HistoryPlot> plots_; ///< of each curve
   std::vector<HistoryLines> histories_;
   RunPictures pictures_;
