@@ -35,9 +35,9 @@ dvec3 room(const dvec3& d)
   return backdrop(d) + lamps * dvec3(0.55, 0.62, 0.7);
 }
 
-class Look {
+class ObjectRenderer {
 public:
-  explicit Look(const ObjectView& object) : object_(object), l_(object.layout), half_(l_.size / 2.0), gradients_(object.slopes.size())
+  explicit ObjectRenderer(const ObjectView& object) : object_(object), l_(object.layout), half_(l_.size / 2.0), gradients_(object.slopes.size())
   {
     for_ranges(gradients_.size(), 4096, [&](std::size_t, Range range) {
       for (std::size_t i = range.begin; i < range.end; ++i) gradients_[i] = facet_gradient(object.slopes[i], l_.n, l_.sines_on(i));
@@ -208,7 +208,7 @@ dvec2 tangents(const preset::Camera& camera)
 
 std::shared_ptr<const job::Picture> view_of(const ObjectView& object, const preset::Camera& camera)
 {
-  const Look look(object);
+  const ObjectRenderer renderer(object);
   const Axes axes = axes_of(camera);
   const dvec2 half = tangents(camera);
   const dvec3 from = scene::to_dvec3(camera.position);
@@ -221,7 +221,7 @@ std::shared_ptr<const job::Picture> view_of(const ObjectView& object, const pres
     for (std::size_t y = rows.begin; y < rows.end; ++y)
       for (std::size_t x = 0; x < width; ++x) {
         const dvec2 at = (2.0 * (dvec2(x, y) + 0.5) / dvec2(width, height) - 1.0) * half;
-        const dvec3 seen = look.seen(from, glm::normalize(axes.ahead + at.x * axes.right - at.y * axes.up));
+        const dvec3 seen = renderer.seen(from, glm::normalize(axes.ahead + at.x * axes.right - at.y * axes.up));
         for (int c = 0; c < 3; ++c) picture->rgb[3 * (y * width + x) + static_cast<std::size_t>(c)] = static_cast<float>(seen[c]);
       }
   });

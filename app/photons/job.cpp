@@ -4,7 +4,7 @@
 #include "engine/engine.h"
 #include "photons/block_smoothing.h"
 #include "photons/relight/layer_film.h"
-#include "photons/sight.h"
+#include "photons/pixel_surfaces.h"
 #include "photons/stage.h"
 #include "tracing/film.h"
 #include "tracing/scales.h"

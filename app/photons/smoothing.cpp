@@ -5,7 +5,7 @@
 #include "base/summed_area.h"
 #include "photons/mixture.h"
 #include "photons/plan_part.h"
-#include "photons/sight.h"
+#include "photons/pixel_surfaces.h"
 #include "tracing/world.h"
 
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ void for_neighbours(int width, int height, bool diagonal, const Work& work)
 }
 
 /// Whether neighbours show places of one object, in a mirror or through glass, that these have pulled apart.
-bool are_pulled_apart(const Sight& a, const Sight& b)
+bool are_pulled_apart(const PixelSurfaces& a, const PixelSurfaces& b)
 {
   if (a.first.object != b.first.object || a.last.object != b.last.object || a.first.object == a.last.object) return false;
   const glm::vec3 way = b.last.position - a.last.position;
@@ -85,14 +85,14 @@ bool are_pulled_apart(const Sight& a, const Sight& b)
 }
 
 /// Of each pixel, whether places are pulled apart within pull_reach of it.
-std::vector<bool> are_near_pulled(const std::vector<Sight>& sights, int width, int height)
+std::vector<bool> are_near_pulled(const std::vector<PixelSurfaces>& pixels, int width, int height)
 {
-  std::vector<double> pulled(sights.size());
+  std::vector<double> pulled(pixels.size());
   for_neighbours(width, height, false, [&](std::size_t i, std::size_t j) {
-    if (are_pulled_apart(sights[i], sights[j])) pulled[i] = pulled[j] = 1;
+    if (are_pulled_apart(pixels[i], pixels[j])) pulled[i] = pulled[j] = 1;
   });
   const SummedArea sums(width, height, [&](std::size_t i) { return pulled[i]; });
-  std::vector<bool> near(sights.size());
+  std::vector<bool> near(pixels.size());
   for (std::size_t i = 0; i < near.size(); ++i)
     near[i] = sums.sum(static_cast<int>(i) % width, static_cast<int>(i) / width, pull_reach) > 0;
   return near;
@@ -170,7 +170,7 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
 
 /// What a pixel shows, as far as light may be spread over it.
 struct PixelSight {
-  Sight::Surface surface; ///< the diffuse one at the end of a look, or the first of glass or a mirror
+  PixelSurfaces::Surface surface; ///< the diffuse one at the end of a ray, or the first of glass or a mirror
   int first = -1;         ///< the object that is met first; -1: none
   bool at_edge = false;   ///< whether a neighbour shows something else: then the pixel may hold light of that
 };
@@ -326,7 +326,7 @@ std::vector<double> portions(std::span<const double> light, std::span<const floa
 std::shared_ptr<const Smoothing::View> Smoothing::view_of(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   scene::Scene seen = scene;
-  seen.environment.reset(); // the largest part of a scene, and no look needs it
+  seen.environment.reset(); // the largest part of a scene, and no ray needs it
   return std::make_shared<const View>(View{std::move(seen), bvh});
 }
 
@@ -343,13 +343,13 @@ void Smoothing::find_surfaces()
   camera.width = width_;
   camera.height = height_;
   std::vector<PixelSight> seen(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  std::vector<Sight> sights(seen.size());
-  for_ranges(sights.size(), 1 << 10, [&](std::size_t, Range range) {
+  std::vector<PixelSurfaces> pixels(seen.size());
+  for_ranges(pixels.size(), 1 << 10, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i)
-      sights[i] = look_through_pixel(view->scene, view->bvh, camera, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
+      pixels[i] = surfaces_of_pixel(view->scene, view->bvh, camera, static_cast<int>(i) % width_, static_cast<int>(i) / width_);
   });
-  const std::vector<bool> pulled = are_near_pulled(sights, width_, height_);
-  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = {pulled[i] ? sights[i].first : sights[i].last, sights[i].first.object};
+  const std::vector<bool> pulled = are_near_pulled(pixels, width_, height_);
+  for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = {pulled[i] ? pixels[i].first : pixels[i].last, pixels[i].first.object};
   for_neighbours(width_, height_, true, [&](std::size_t i, std::size_t j) {
     if (seen[i].first == seen[j].first && seen[i].surface.object == seen[j].surface.object) return;
     seen[i].at_edge = seen[j].at_edge = true;
@@ -371,7 +371,7 @@ std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
 {
   constexpr std::uint64_t pulled_apart = 2 * sizeof(double); // marks, and their summed area
   return tracing::tree_bytes(bvh) + tracing::mesh_bytes(scene) +
-         (sizeof(Sight) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
+         (sizeof(PixelSurfaces) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
 }
 
 void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const Known& known)

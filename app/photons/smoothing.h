@@ -44,10 +44,10 @@ public:
   };
   static std::shared_ptr<const View> view_of(const scene::Scene& scene, const scene::Bvh& bvh);
 
-  /// Looks once through the middle of every pixel of a picture of width x height, on every core. Light is spread within one nearly flat
+  /// Sends one ray through the middle of every pixel of a picture of width x height, on every core. Light is spread within one nearly flat
   /// part of the diffuse object that the pixel shows, be it directly, in a mirror or through glass, and along its outline by itself. Where
   /// glass or a mirror shows none, or is curved so that neighbours show places far apart, it is spread within one nearly flat part of the
-  /// glass or mirror. The looks wait until the first call of find_surfaces() or spread(), for they would hold up a run's preview: until then
+  /// glass or mirror. The rays wait until the first call of find_surfaces() or spread(), for they would hold up a run's preview: until then
   /// it keeps what is looked at.
   Smoothing(std::shared_ptr<const View> view, int width, int height, Spread spread);
   void find_surfaces();
@@ -68,7 +68,7 @@ public:
 private:
   int width_, height_;
   Spread spread_;
-  std::shared_ptr<const View> view_; ///< null: all looks are taken
+  std::shared_ptr<const View> view_; ///< null: the surfaces are found
   std::vector<Level> level_;         ///< [pixel]
 };
 

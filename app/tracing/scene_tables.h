@@ -23,7 +23,7 @@ struct LeaveOut {
   bool unreached_targets = all; ///< for each light: glass and mirrors outside a spot's cone or behind an area light
   bool dark_lights = all;       ///< lights without power
   bool unlit_wavelengths = all; ///< wavelengths that no light has
-  bool occlusion = all;         ///< the look from a caustic back to the camera where nothing can stand between them
+  bool occlusion = all;         ///< the shadow ray from a caustic back to the camera where nothing can stand between them
   bool light_types = all;       ///< kernels without the code of types of light that the scene does not have
   bool mirrors = all;           ///< kernels without mirrors
   bool bending = all;           ///< kernels without Snell and Fresnel where all glass has n = 1

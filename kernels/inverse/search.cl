@@ -54,7 +54,7 @@ static SEPARATE Search search_of(global const DeviceLayout* layout, global const
 }
 
 // Facet order[first + i] looks for found[i], first among its candidates; done[i]: it has none that is better.
-__kernel void look(SEARCH_ARGUMENTS, __global const float2* candidates, __global const uint* order, uint first, uint count, uint2 seed,
+__kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __global const uint* order, uint first, uint count, uint2 seed,
                    uint sweep, __global float2* found, __global int* done)
 {
   const uint i = (uint)get_global_id(0);

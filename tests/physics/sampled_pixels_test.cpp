@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pixels that get samples from the eye by their noise: the mean is that of as many samples everywhere, and a run that is resumed has the
 // bits of one that was not.
-#include "photons/sight.h"
+#include "photons/pixel_surfaces.h"
 #include "preset/read.h"
 #include "tests/support/render.h"
 #include "tests/support/saved_jobs.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs with smoothed caustics beside the same runs without: the same power, less error.
-#include "photons/sight.h"
+#include "photons/pixel_surfaces.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/loaded_scenes.h"
@@ -89,9 +89,9 @@ TEST(SmoothedRun, keeps_light_on_its_side_of_an_edge_behind_a_window)
   constexpr std::size_t table = 1, lower = 2, window = 3;
   std::vector<double> before(scene.objects.size()), after(scene.objects.size());
   for (std::size_t i = 0; i < 64 * 64; ++i) {
-    const photons::Sight sight = photons::look_through_pixel(scene, bvh, scene.camera, static_cast<int>(i) % 64, static_cast<int>(i) / 64);
-    ASSERT_EQ(sight.first.object, static_cast<int>(window));
-    const auto object = static_cast<std::size_t>(sight.last.object);
+    const photons::PixelSurfaces surfaces = photons::surfaces_of_pixel(scene, bvh, scene.camera, static_cast<int>(i) % 64, static_cast<int>(i) / 64);
+    ASSERT_EQ(surfaces.first.object, static_cast<int>(window));
+    const auto object = static_cast<std::size_t>(surfaces.last.object);
     ASSERT_TRUE(object == table || object == lower);
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) before[object] += plain.picture->rgb[c], after[object] += smooth.picture->rgb[c];
   }

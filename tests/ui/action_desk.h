@@ -15,7 +15,7 @@ public:
     runs.step_ms = 1;
     measured();
     open(ball_text());
-    EXPECT_TRUE(until([&] { return workbench.run().seen<ui::SeenScene>() && workbench.run().error_history(); }));
+    EXPECT_TRUE(until([&] { return workbench.run().seen<ui::ViewedScene>() && workbench.run().error_history(); }));
   }
 
   const preset::Preset& preset() const { return *workbench.preset(); }

@@ -4,7 +4,7 @@
 #include "scenes.h"
 #include "tests/support/loaded_scenes.h"
 #include "ui/view/placement.h"
-#include "ui/view/sight.h"
+#include "ui/view/pinhole.h"
 #include <glm/glm.hpp>
 
 namespace nephroid::ui::camera_moves_test {
@@ -159,13 +159,13 @@ preset::Preset picked_preset()
   return preset;
 }
 
-Sight sight_of(const preset::Preset& preset) { return *make_sight(preset.scene.camera, {}, preset.scene.camera.resolution); }
+Pinhole pinhole_of(const preset::Preset& preset) { return *make_pinhole(preset.scene.camera, {}, preset.scene.camera.resolution); }
 
 /// The object at each pixel's centre.
-std::vector<std::optional<std::size_t>> objects_in(const SeenScene& seen, const preset::Preset& preset)
+std::vector<std::optional<std::size_t>> objects_in(const ViewedScene& seen, const preset::Preset& preset)
 {
   std::vector<std::optional<std::size_t>> all;
-  const Sight s = sight_of(preset);
+  const Pinhole s = pinhole_of(preset);
   for (int y = 0; y < 48; ++y)
     for (int x = 0; x < 64; ++x) all.push_back(object_at(seen, preset, s.ray({x + 0.5, y + 0.5})));
   return all;
@@ -175,7 +175,7 @@ TEST(Picking, FindsABallWhereItIs)
 {
   const preset::Preset preset = picked_preset();
   const auto seen = test::seen_scene(preset);
-  const Sight s = sight_of(preset);
+  const Pinhole s = pinhole_of(preset);
   int on_ball = 0;
   for (int y = 0; y < 48; ++y)
     for (int x = 0; x < 64; ++x) {

@@ -164,7 +164,7 @@ struct Shown {
   preset::Camera camera;
   Canvas canvas{{30, 70}, {640, 411}};
   ViewSettings view_settings;
-  Sight sight() const { return *make_sight(camera, place(view_settings, canvas, camera.resolution), camera.resolution); }
+  Pinhole pinhole() const { return *make_pinhole(camera, place(view_settings, canvas, camera.resolution), camera.resolution); }
 };
 
 Shown shown(std::mt19937& random, bool fit)
@@ -181,37 +181,37 @@ Shown shown(std::mt19937& random, bool fit)
   return s;
 }
 
-TEST(Sight, IsTheScenesCamera)
+TEST(Pinhole, IsTheScenesCamera)
 {
   std::mt19937 random(2);
   for (int i = 0; i < 50; ++i) {
     const Shown s = shown(random, i % 2 == 0);
     const scene::Scene nothing;
     const scene::Camera camera = scene::make_camera(s.camera, nothing);
-    const Sight sight = s.sight();
+    const Pinhole pinhole = s.pinhole();
     const Placement placement = place(s.look, s.canvas, s.camera.resolution);
     for (const auto& [x, y] : {std::array{0, 0}, std::array{319, 7}, std::array{160, 100}, std::array{12, 199}}) {
       const glm::dvec3 expected = glm::dvec3(camera.forward) + (2 * (x + 0.5) / 320 - 1) * camera.tan_x * glm::dvec3(camera.right) +
                                   (1 - 2 * (y + 0.5) / 200) * camera.tan_y * glm::dvec3(camera.up);
       const Point at = placement.to_screen({x + 0.5, y + 0.5});
-      const Ray ray = sight.ray(at);
+      const Ray ray = pinhole.ray(at);
       EXPECT_LT(glm::distance(glm::normalize(ray.direction), glm::normalize(expected)), 1e-6);
-      const auto back = sight.to_screen(ray.origin + 2.5 * ray.direction);
+      const auto back = pinhole.to_screen(ray.origin + 2.5 * ray.direction);
       ASSERT_TRUE(back);
       EXPECT_NEAR((*back)[0], at[0], 1e-6);
       EXPECT_NEAR((*back)[1], at[1], 1e-6);
-      EXPECT_FALSE(sight.to_screen(ray.origin - ray.direction)) << "behind it";
+      EXPECT_FALSE(pinhole.to_screen(ray.origin - ray.direction)) << "behind it";
     }
   }
 }
 
-TEST(Sight, IsNotThereForACameraThatSeesNothing)
+TEST(Pinhole, IsNotThereForACameraThatSeesNothing)
 {
   preset::Camera camera;
   camera.target = camera.position;
-  EXPECT_FALSE(make_sight(camera, {}, {1, 1}));
+  EXPECT_FALSE(make_pinhole(camera, {}, {1, 1}));
   camera = {.position = {0, 1, 4}, .target = {0, 5, 4}};
-  EXPECT_FALSE(make_sight(camera, {}, {1, 1})) << "along its up";
+  EXPECT_FALSE(make_pinhole(camera, {}, {1, 1})) << "along its up";
 }
 
 TEST(GizmoMatrices, ProjectAsTheCameraDoes)
@@ -220,14 +220,14 @@ TEST(GizmoMatrices, ProjectAsTheCameraDoes)
   std::uniform_real_distribution<double> any(-1, 1);
   for (int i = 0; i < 200; ++i) {
     const Shown s = shown(random, i % 2 == 0);
-    const Sight sight = s.sight();
-    const GizmoFrame frame{sight, sight.position + 3.0 * sight.forward + glm::dvec3(any(random), any(random), any(random)), 2.5};
+    const Pinhole pinhole = s.pinhole();
+    const GizmoFrame frame{pinhole, pinhole.position + 3.0 * pinhole.forward + glm::dvec3(any(random), any(random), any(random)), 2.5};
     const glm::dvec3 point = frame.base + 0.3 * glm::dvec3(any(random), any(random), any(random));
-    const auto expected = sight.to_screen(point);
+    const auto expected = pinhole.to_screen(point);
     ASSERT_TRUE(expected);
     // As ImGuizmo does: the frame's coordinates through both, then from -1..1 to its rectangle, y down.
     const glm::dvec4 from((point - frame.base) / frame.unit, 1);
-    const glm::dvec4 clip = glm::dmat4(projection_matrix(sight, s.canvas)) * (glm::dmat4(view_matrix(frame)) * from);
+    const glm::dvec4 clip = glm::dmat4(projection_matrix(pinhole, s.canvas)) * (glm::dmat4(view_matrix(frame)) * from);
     const double x = s.canvas.corner[0] + s.canvas.size[0] * (clip[0] / clip[3] + 1) / 2;
     const double y = s.canvas.corner[1] + s.canvas.size[1] * (1 - clip[1] / clip[3]) / 2;
     const double tolerance = 1e-4 * (1 + std::hypot((*expected)[0], (*expected)[1]));

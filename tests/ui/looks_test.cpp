@@ -2,7 +2,7 @@
 // How the View shows a picture: layers, tone curves, false colour; and that a picture is saved as it is shown.
 #include "layered_runs.h"
 #include "ui/state/tone.h"
-#include "ui/view/sight.h"
+#include "ui/view/pinhole.h"
 #include "window_fixture.h"
 
 namespace nephroid::ui::looks_test {

@@ -270,18 +270,18 @@ TEST_F(GizmoWindowTest, AnArrowMovesABall)
   {
     test::HeadlessWindow<test::SceneRuns> like(tall, "", file);
     const auto& resolution = before.scene.camera.resolution;
-    const Sight sight = *make_sight(before.scene.camera, place(ViewSettings{}, like.view().canvas(), resolution), resolution);
+    const Pinhole pinhole = *make_pinhole(before.scene.camera, place(ViewSettings{}, like.view().canvas(), resolution), resolution);
     const glm::dvec3 middle = to_vector(from);
-    const Point at = *sight.to_screen(middle);
+    const Point at = *pinhole.to_screen(middle);
     like.click(at);
     like.frames(2);
     const Point arrow = like.view().overlay().gizmo().places().value()[1];
     // The tip stays under the mouse. The arrow is as long on the screen everywhere, so it shortens in the scene as it comes nearer.
-    const Ray ray = sight.ray(arrow);
+    const Ray ray = pinhole.ray(arrow);
     const double away = (middle.z - ray.origin.z) / ray.direction.z; // in the plane of x and y through the middle
     const glm::dvec3 there = middle + glm::dvec3(right_by, 0, 0);
-    const double length = (ray.origin + away * ray.direction - middle).x * sight.depth(there) / sight.depth(middle);
-    ball = pixel(at), tip = pixel(arrow), end = pixel(*sight.to_screen(there + glm::dvec3(length, 0, 0)));
+    const double length = (ray.origin + away * ray.direction - middle).x * pinhole.depth(there) / pinhole.depth(middle);
+    ball = pixel(at), tip = pixel(arrow), end = pixel(*pinhole.to_screen(there + glm::dvec3(length, 0, 0)));
   }
   test::PlayedWindow window(file, {"--size", fmt::format("{}x{}", tall[0], tall[1])}, folder.path());
   window.click(ball);

@@ -6,7 +6,7 @@
 #include "inverse/engine.h"
 #include "tests/support/render.h"
 #include "ui/shell/panels.h"
-#include "ui/view/sight.h"
+#include "ui/view/pinhole.h"
 
 namespace nephroid::test {
 
@@ -100,9 +100,9 @@ inline std::shared_ptr<const run::LoadedScene> loaded_scene(const preset::Preset
   return loaded;
 }
 
-inline std::shared_ptr<const ui::SeenScene> seen_scene(const preset::Preset& preset)
+inline std::shared_ptr<const ui::ViewedScene> seen_scene(const preset::Preset& preset)
 {
-  return std::any_cast<std::shared_ptr<const ui::SeenScene>>(ui::SeenScene::look(preset, loaded_scene(preset)));
+  return std::any_cast<std::shared_ptr<const ui::ViewedScene>>(ui::ViewedScene::look(preset, loaded_scene(preset)));
 }
 
 /// Fake jobs, but what there is to see in the scene is looked at as the program does.

@@ -20,15 +20,15 @@ protected:
   void open(const std::string& text = test::ball_text())
   {
     WindowFixtureOf::open(text);
-    ASSERT_TRUE(until([&] { return workbench.run().seen<SeenScene>() != nullptr; }));
+    ASSERT_TRUE(until([&] { return workbench.run().seen<ViewedScene>() != nullptr; }));
   }
   const preset::Scene& scene() const { return workbench.preset()->scene; }
-  Sight sight() const
+  Pinhole pinhole() const
   {
     const ViewSettings& view_settings = workbench.chosen().view_settings;
-    return *make_sight(scene().camera, place(view_settings, view().canvas(), view().shown().size), view().shown().size);
+    return *make_pinhole(scene().camera, place(view_settings, view().canvas(), view().shown().size), view().shown().size);
   }
-  Point at(double x, double y, double z) const { return *sight().to_screen({x, y, z}); }
+  Point at(double x, double y, double z) const { return *pinhole().to_screen({x, y, z}); }
   Selection selected() const { return workbench.chosen().selection; }
   void select(const Selection& selection) { apply({command::Select{selection}}); }
   /// On the screen: 0 their middle; 1, 2, 3 along x, y, z.

@@ -68,7 +68,7 @@ TEST_F(WindowTest, ShowsThePixelsThatARunWrites)
   const Placement p = placement_in_window(900, 700, file, {written.width, written.height});
   const preset::Preset preset = preset::parse_preset(test::preset_text, "test");
   const Point icon =
-      *make_sight(preset.scene.camera, p, {written.width, written.height})->to_screen(to_vector(preset.scene.lights[0].position));
+      *make_pinhole(preset.scene.camera, p, {written.width, written.height})->to_screen(to_vector(preset.scene.lights[0].position));
   ASSERT_GT(p.scale, 3) << "pixels are squares";
   int different = 0, brightest = 0;
   // The mouse rests over the picture: the value under it is shown over the lower left corner.

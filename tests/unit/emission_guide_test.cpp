@@ -4,7 +4,7 @@
 #include "photons/effort/emitters.h"
 #include "photons/relight/layer_film.h"
 #include "photons/relight/layer_light.h"
-#include "photons/sight.h"
+#include "photons/pixel_surfaces.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"

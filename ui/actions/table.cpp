@@ -10,7 +10,7 @@
 #include "ui/shell/panels.h"
 #include "ui/state/files.h"
 #include "ui/view/bars.h"
-#include "ui/view/sight.h"
+#include "ui/view/pinhole.h"
 
 #include <fmt/format.h>
 

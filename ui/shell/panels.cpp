@@ -9,7 +9,7 @@
 #include "ui/presets/panel.h"
 #include "ui/runs/panel.h"
 #include "ui/view/panel.h"
-#include "ui/view/sight.h"
+#include "ui/view/pinhole.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -20,7 +20,7 @@ namespace {
 /// Those of an engine stand together, in the middle.
 std::vector<PanelEntry> make_table()
 {
-  std::vector<PanelEntry> table{{"view", ViewPanel::title, "", make_panel<ViewPanel>, SeenScene::look},
+  std::vector<PanelEntry> table{{"view", ViewPanel::title, "", make_panel<ViewPanel>, ViewedScene::look},
                                 {"error", ErrorPanel::title, "", make_panel<ErrorPanel>},
                                 {"parameters", ParametersPanel::title, "", make_panel<ParametersPanel>},
                                 {"runs", RunsPanel::title, "", make_panel<RunsPanel>}};

@@ -50,7 +50,7 @@ glm::dvec3 factors_of(const GizmoFrame& frame, const glm::dmat3& axes, int handl
   const auto stepped = [&](double factor) { return std::max(step > 0 ? step * std::round(factor / step) : factor, smallest); };
   if (handle == ImGuizmo::MT_SCALE_XYZ) return glm::dvec3(stepped(1 + (now[0] - from[0]) / (100 * scale())));
   const int axis = handle - ImGuizmo::MT_SCALE_X;
-  const auto middle = frame.sight.to_screen(frame.base), beside = frame.sight.to_screen(frame.base + 0.01 * frame.unit * axes[axis]);
+  const auto middle = frame.pinhole.to_screen(frame.base), beside = frame.pinhole.to_screen(frame.base + 0.01 * frame.unit * axes[axis]);
   glm::dvec3 factors(1);
   if (!middle || !beside) return factors;
   const auto along = [&](const Point& p) {
@@ -111,13 +111,13 @@ constexpr ImU32 lamp = IM_COL32(255, 214, 102, 255), marked = IM_COL32(255, 150,
 constexpr float icon_radius = 6, grab_radius = 10; ///< pixels at scale 1
 
 /// A line of the scene, as far as it is before the camera. Dark below, so that it is seen on any colour.
-void draw_line(const Sight& sight, glm::dvec3 a, glm::dvec3 b, ImU32 colour)
+void draw_line(const Pinhole& pinhole, glm::dvec3 a, glm::dvec3 b, ImU32 colour)
 {
-  const double from = sight.depth(a), to = sight.depth(b), nearest = 1e-3 * std::max(std::abs(from), std::abs(to));
+  const double from = pinhole.depth(a), to = pinhole.depth(b), nearest = 1e-3 * std::max(std::abs(from), std::abs(to));
   if (!(std::max(from, to) > nearest)) return;
   if (from < nearest) a += (nearest - from) / (to - from) * (b - a);
   if (to < nearest) b += (nearest - to) / (from - to) * (a - b);
-  const auto start = sight.to_screen(a), end = sight.to_screen(b);
+  const auto start = pinhole.to_screen(a), end = pinhole.to_screen(b);
   if (!start || !end) return;
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->AddLine(vec(*start), vec(*end), colour::outline, 3 * scale());
@@ -125,7 +125,7 @@ void draw_line(const Sight& sight, glm::dvec3 a, glm::dvec3 b, ImU32 colour)
 }
 
 /// The edges of a parallelepiped from its middle by three half edges.
-void draw_box(const Sight& sight, const glm::dvec3& middle, const glm::dmat3& half, ImU32 colour)
+void draw_box(const Pinhole& pinhole, const glm::dvec3& middle, const glm::dmat3& half, ImU32 colour)
 {
   const auto corner = [&](unsigned bits) {
     glm::dvec3 p = middle;
@@ -134,33 +134,33 @@ void draw_box(const Sight& sight, const glm::dvec3& middle, const glm::dmat3& ha
   };
   for (unsigned bits = 0; bits < 8; ++bits)
     for (unsigned axis = 0; axis < 3; ++axis)
-      if (!(bits >> axis & 1)) draw_line(sight, corner(bits), corner(bits | 1U << axis), colour);
+      if (!(bits >> axis & 1)) draw_line(pinhole, corner(bits), corner(bits | 1U << axis), colour);
 }
 
-void draw_object_box(const Context& context, const Sight& sight, std::size_t index)
+void draw_object_box(const Context& context, const Pinhole& pinhole, std::size_t index)
 {
-  const auto box = local_box(context.run.seen<SeenScene>().get(), *context.preset(), index);
+  const auto box = local_box(context.run.seen<ViewedScene>().get(), *context.preset(), index);
   if (!box) return;
   const preset::Transform& transform = context.preset()->scene.objects[index].transform;
   const glm::dmat3 turn = scene::rotation(transform.rotate_deg);
   const glm::dvec3 factors = to_vector(transform.scale), half = 0.5 * (box->high - box->low) * factors;
   const glm::dvec3 middle = turn * (0.5 * (box->high + box->low) * factors) + to_vector(transform.translate);
-  draw_box(sight, middle, {half.x * turn[0], half.y * turn[1], half.z * turn[2]}, marked);
+  draw_box(pinhole, middle, {half.x * turn[0], half.y * turn[1], half.z * turn[2]}, marked);
 }
 
 /// An area light's rectangle; the way that the light of the others goes; a disc where it is.
-void draw_light(const Context& context, const Sight& sight, std::size_t index, bool selected)
+void draw_light(const Context& context, const Pinhole& pinhole, std::size_t index, bool selected)
 {
   const preset::Preset& preset = *context.preset();
   const preset::Light& light = preset.scene.lights[index];
   const Grip grip = *grip_of(preset, {Selection::Kind::light, index}, nullptr);
-  const auto at = sight.to_screen(grip.at);
+  const auto at = pinhole.to_screen(grip.at);
   if (!at) return;
   const ImU32 colour = selected ? marked : lamp;
-  const double em = 2 * sight.depth(grip.at) * sight.tan_x / sight.size[0] * ImGui::GetFontSize();
+  const double em = 2 * pinhole.depth(grip.at) * pinhole.tan_x / pinhole.size[0] * ImGui::GetFontSize();
   if (light.type == LightType::area)
-    draw_box(sight, grip.at, {0.5 * light.size[0] * grip.axes[0], 0.5 * light.size[1] * grip.axes[1], glm::dvec3(0)}, colour);
-  if (light.type != LightType::point) draw_line(sight, grip.at, grip.at + 2.5 * em * grip.axes[2], colour);
+    draw_box(pinhole, grip.at, {0.5 * light.size[0] * grip.axes[0], 0.5 * light.size[1] * grip.axes[1], glm::dvec3(0)}, colour);
+  if (light.type != LightType::point) draw_line(pinhole, grip.at, grip.at + 2.5 * em * grip.axes[2], colour);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   const float radius = icon_radius * scale();
   draw_list->AddCircleFilled(vec(*at), radius + 2 * scale(), colour::outline);
@@ -172,38 +172,38 @@ void draw_light(const Context& context, const Sight& sight, std::size_t index, b
 
 glm::mat4 view_matrix(const GizmoFrame& frame)
 {
-  const glm::dvec3 eye = (frame.sight.position - frame.base) / frame.unit;
-  return glm::lookAt(eye, eye + frame.sight.forward, frame.sight.up);
+  const glm::dvec3 eye = (frame.pinhole.position - frame.base) / frame.unit;
+  return glm::lookAt(eye, eye + frame.pinhole.forward, frame.pinhole.up);
 }
 
-glm::mat4 projection_matrix(const Sight& sight, const Canvas& canvas)
+glm::mat4 projection_matrix(const Pinhole& pinhole, const Canvas& canvas)
 {
   constexpr double near = 0.05, far = 10; // in the frame's units; nothing is cut off there
   // The canvas' edges in the picture, from -1 to 1, y down on the screen.
   const auto edge = [&](std::size_t i, double part) {
-    return 2 * (canvas.corner[i] + part * canvas.size[i] - sight.corner[i]) / sight.size[i] - 1;
+    return 2 * (canvas.corner[i] + part * canvas.size[i] - pinhole.corner[i]) / pinhole.size[i] - 1;
   };
-  const double x = near * sight.tan_x, y = -near * sight.tan_y;
+  const double x = near * pinhole.tan_x, y = -near * pinhole.tan_y;
   return glm::frustum(x * edge(0, 0), x * edge(0, 1), y * edge(1, 1), y * edge(1, 0), near, far);
 }
 
 Gizmo::Gizmo() { let_go(); }
 
-void Gizmo::draw(const Context& context, const Sight& sight, const Canvas& canvas, bool hovered)
+void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& canvas, bool hovered)
 {
   prepare(canvas);
   places_.reset();
   const Selection selection = context.selection();
   if (drag_ && (drag_->selection != selection || !context.chosen.handles.shown)) end_drag(context);
-  const auto grip = context.preset() ? grip_of(*context.preset(), selection, context.run.seen<SeenScene>().get()) : std::nullopt;
+  const auto grip = context.preset() ? grip_of(*context.preset(), selection, context.run.seen<ViewedScene>().get()) : std::nullopt;
   if (!grip || !context.chosen.handles.shown) return;
   const Handles& handles = context.chosen.handles;
-  const GizmoFrame frame = drag_ ? drag_->frame : GizmoFrame{sight, grip->at, sight.depth(grip->at)};
+  const GizmoFrame frame = drag_ ? drag_->frame : GizmoFrame{pinhole, grip->at, pinhole.depth(grip->at)};
   if (!(frame.unit > 0)) return; // behind the camera
   const Tool tool = drag_ ? drag_->tool : usable_tool(*grip, handles.tool);
   const bool own_axes = drag_ ? drag_->own_axes : handles.own_axes || tool == Tool::scale;
   glm::mat4 matrix = drag_ ? drag_->matrix : glm::mat4(glm::mat3(grip->axes));
-  const glm::mat4 view = view_matrix(frame), projection = projection_matrix(frame.sight, canvas);
+  const glm::mat4 view = view_matrix(frame), projection = projection_matrix(frame.pinhole, canvas);
   const bool snaps = handles.snap != ImGui::GetIO().KeyCtrl;
   const glm::vec3 steps = snap_steps(tool, frame.unit);
   // ImGuizmo takes hold of nothing where an item of Dear ImGui is under the mouse, and the picture is one.
@@ -253,7 +253,7 @@ void Gizmo::follow(const Context& context, const glm::mat4& matrix)
   }
   preset::Preset edited = drag_->start;
   std::string text = edit(edited, matrix);
-  if (edited.scene == drag_->newest.scene || !make_sight(edited.scene.camera, {}, {1, 1})) return;
+  if (edited.scene == drag_->newest.scene || !make_pinhole(edited.scene.camera, {}, {1, 1})) return;
   drag_->newest = edited;
   drag_->text = std::move(text);
   context.push(command::Edit{fmt::format("{} {}", verb(drag_->tool), name_of(edited, drag_->selection)), std::move(edited),
@@ -274,7 +274,7 @@ std::string Gizmo::edit(preset::Preset& edited, const glm::mat4& matrix) const
   }
   case Tool::turn: {
     const int which = d.handle - ImGuizmo::MT_ROTATE_X;
-    const glm::dvec3 axis = which == 3 ? -d.frame.sight.forward : d.own_axes ? d.grip.axes[which] : glm::dmat3(1)[which];
+    const glm::dvec3 axis = which == 3 ? -d.frame.pinhole.forward : d.own_axes ? d.grip.axes[which] : glm::dmat3(1)[which];
     const double degrees = std::round(10 * degrees_about(axis, matrix, d.grip.axes)) / 10;
     turn(edited, d.selection, d.grip, axis, degrees);
     return fmt::format("{:+.1f} degrees", degrees);
@@ -291,43 +291,43 @@ std::string Gizmo::edit(preset::Preset& edited, const glm::mat4& matrix) const
 void Gizmo::note_places(const GizmoFrame& frame, const glm::dmat3& axes)
 {
   const glm::dvec3 middle = drag_ ? frame.base + frame.unit * glm::dvec3(drag_->matrix[3]) : frame.base;
-  const double pixel = 2 * frame.unit * frame.sight.tan_x / frame.sight.size[0];
+  const double pixel = 2 * frame.unit * frame.pinhole.tan_x / frame.pinhole.size[0];
   const double length = handle_em * ImGui::GetFontSize() * pixel;
   std::array<Point, 4> places{};
   for (int i = 0; i < 4; ++i)
     places[static_cast<std::size_t>(i)] =
-        frame.sight.to_screen(i == 0 ? middle : middle + length * axes[i - 1]).value_or(Point{-1e9, -1e9});
+        frame.pinhole.to_screen(i == 0 ? middle : middle + length * axes[i - 1]).value_or(Point{-1e9, -1e9});
   places_ = places;
 }
 
 std::optional<Point> SceneOverlay::icon(const Context& context, std::size_t light) const
 {
-  const auto grip = sight_ ? grip_of(*context.preset(), {Selection::Kind::light, light}, nullptr) : std::nullopt;
-  return grip ? sight_->to_screen(grip->at) : std::nullopt;
+  const auto grip = pinhole_ ? grip_of(*context.preset(), {Selection::Kind::light, light}, nullptr) : std::nullopt;
+  return grip ? pinhole_->to_screen(grip->at) : std::nullopt;
 }
 
 void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std::array<int, 2>& picture, bool hovered)
 {
   const preset::Preset* preset = context.preset();
-  sight_.reset();
-  if (preset && has_scene(*preset)) sight_ = make_sight(preset->scene.camera, place(context.chosen.view_settings, canvas, picture), picture);
+  pinhole_.reset();
+  if (preset && has_scene(*preset)) pinhole_ = make_pinhole(preset->scene.camera, place(context.chosen.view_settings, canvas, picture), picture);
   const Selection selection = context.selection();
   const Comparison& comparison = context.comparing.comparison();
   const bool other_picture = comparison.flip || comparison.shown != 0; // nothing over that: one looks at it to compare
-  if (sight_ && context.chosen.handles.shown && !other_picture) {
-    if (selection.kind == Selection::Kind::object) draw_object_box(context, *sight_, selection.index);
+  if (pinhole_ && context.chosen.handles.shown && !other_picture) {
+    if (selection.kind == Selection::Kind::object) draw_object_box(context, *pinhole_, selection.index);
     for (std::size_t i = 0; i < preset->scene.lights.size(); ++i)
-      draw_light(context, *sight_, i, selection == Selection{Selection::Kind::light, i});
+      draw_light(context, *pinhole_, i, selection == Selection{Selection::Kind::light, i});
   }
-  if (sight_ && !other_picture)
-    gizmo_.draw(context, *sight_, canvas, hovered);
+  if (pinhole_ && !other_picture)
+    gizmo_.draw(context, *pinhole_, canvas, hovered);
   else
     gizmo_.rest(context);
 }
 
 void SceneOverlay::click(const Context& context, const Point& at) const
 {
-  if (!sight_ || !context.chosen.handles.shown) return;
+  if (!pinhole_ || !context.chosen.handles.shown) return;
   Selection selection;
   double nearest = grab_radius * scale();
   for (std::size_t i = 0; i < context.preset()->scene.lights.size(); ++i) {
@@ -338,11 +338,11 @@ void SceneOverlay::click(const Context& context, const Point& at) const
     selection = {Selection::Kind::light, i};
   }
   if (selection.kind == Selection::Kind::nothing) {
-    const auto seen = context.run.seen<SeenScene>();
+    const auto seen = context.run.seen<ViewedScene>();
     if (!seen) return; // no run of the preset was ready yet: nobody knows what is there
-    const Ray ray = sight_->ray(at);
-    const bool inside = at[0] >= sight_->corner[0] && at[1] >= sight_->corner[1] && at[0] < sight_->corner[0] + sight_->size[0] &&
-                        at[1] < sight_->corner[1] + sight_->size[1];
+    const Ray ray = pinhole_->ray(at);
+    const bool inside = at[0] >= pinhole_->corner[0] && at[1] >= pinhole_->corner[1] && at[0] < pinhole_->corner[0] + pinhole_->size[0] &&
+                        at[1] < pinhole_->corner[1] + pinhole_->size[1];
     if (const auto object = inside ? object_at(*seen, *context.preset(), ray) : std::nullopt)
       selection = {Selection::Kind::object, *object};
   }

@@ -6,26 +6,26 @@
 #include "ui/state/context.h"
 #include "ui/view/gizmo_edits.h"
 #include "ui/view/placement.h"
-#include "ui/view/sight.h"
+#include "ui/view/pinhole.h"
 #include "ui/widgets/widgets.h"
 
 namespace nephroid::ui {
 
 /// What ImGuizmo calculates in: single precision, so lengths are in distances from the camera, and places from the middle of the handles.
 struct GizmoFrame {
-  Sight sight;
+  Pinhole pinhole;
   glm::dvec3 base{0}; ///< the frame's origin
   double unit = 1;    ///< how far that is in front of the camera
 };
 glm::mat4 view_matrix(const GizmoFrame& frame);
 /// Of a canvas that the picture may fill in part, or be larger than.
-glm::mat4 projection_matrix(const Sight& sight, const Canvas& canvas);
+glm::mat4 projection_matrix(const Pinhole& pinhole, const Canvas& canvas);
 
 class Gizmo {
 public:
   Gizmo();
   /// Inside of the View's window, after the picture. hovered: the mouse is over the picture's canvas and nothing else.
-  void draw(const Context& context, const Sight& sight, const Canvas& canvas, bool hovered);
+  void draw(const Context& context, const Pinhole& pinhole, const Canvas& canvas, bool hovered);
   /// In a frame where nothing can be taken hold of: a drag ends.
   void rest(const Context& context);
   /// Whether a handle is being dragged, so that the mouse means nothing else.
@@ -72,7 +72,7 @@ public:
   std::optional<Point> icon(const Context& context, std::size_t light) const;
 
 private:
-  std::optional<Sight> sight_; ///< of the newest frame; nothing where there is nothing to select
+  std::optional<Pinhole> pinhole_; ///< of the newest frame; nothing where there is nothing to select
   Gizmo gizmo_;
 };
 

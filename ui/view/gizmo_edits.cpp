@@ -99,7 +99,7 @@ glm::dmat3 sorted_axes(const glm::dmat3& axes, const glm::dmat3& directions)
 
 } // namespace
 
-std::optional<Grip> grip_of(const preset::Preset& preset, const Selection& selection, const SeenScene* seen)
+std::optional<Grip> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen)
 {
   switch (in_preset(selection, &preset).kind) {
   case Kind::object: {
@@ -215,18 +215,18 @@ double snap_step(double depth)
 int decimals_for(double depth) { return static_cast<int>(std::ceil(-std::log10(depth * 1e-4))); }
 
 std::optional<preset::Preset> nudged(const preset::Preset& preset, const Selection& selection, const Handles& handles,
-                                     const SeenScene* seen, Nudge nudge)
+                                     const ViewedScene* seen, Nudge nudge)
 {
   const auto grip = grip_of(preset, selection, seen);
-  const auto sight = make_sight(preset.scene.camera, {}, {1, 1});
-  if (!grip || !sight) return std::nullopt;
+  const auto pinhole = make_pinhole(preset.scene.camera, {}, {1, 1});
+  if (!grip || !pinhole) return std::nullopt;
   const bool forth = nudge == Nudge::right || nudge == Nudge::up || nudge == Nudge::away;
   const int direction = nudge == Nudge::left || nudge == Nudge::right ? 0 : nudge == Nudge::up || nudge == Nudge::down ? 1 : 2;
-  const glm::dmat3 axes = sorted_axes(handles.own_axes ? grip->axes : glm::dmat3(1), {sight->right, sight->up, sight->forward});
+  const glm::dmat3 axes = sorted_axes(handles.own_axes ? grip->axes : glm::dmat3(1), {pinhole->right, pinhole->up, pinhole->forward});
   preset::Preset edited = preset;
   switch (usable_tool(*grip, handles.tool)) {
   case Handles::Tool::move: {
-    const double depth = glm::length(grip->at - sight->position);
+    const double depth = glm::length(grip->at - pinhole->position);
     if (!(depth > 0)) return std::nullopt;
     const double step = snap_step(depth) * (handles.snap ? 1 : 0.1);
     move(edited, selection, (forth ? step : -step) * axes[direction], decimals_for(depth));
@@ -247,17 +247,17 @@ std::optional<preset::Preset> nudged(const preset::Preset& preset, const Selecti
     break;
   }
   }
-  if (!make_sight(edited.scene.camera, {}, {1, 1})) return std::nullopt;
+  if (!make_pinhole(edited.scene.camera, {}, {1, 1})) return std::nullopt;
   return edited;
 }
 
-std::optional<preset::Camera> looking_at(const preset::Preset& preset, const Selection& selection, const SeenScene* seen)
+std::optional<preset::Camera> looking_at(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen)
 {
   const auto grip = grip_of(preset, selection, seen);
   if (!grip || !grip->moves || selection.kind == Kind::camera) return std::nullopt;
   preset::Camera camera = preset.scene.camera;
   camera.target = to_stored(grip->at);
-  if (!make_sight(camera, {}, {1, 1})) return std::nullopt;
+  if (!make_pinhole(camera, {}, {1, 1})) return std::nullopt;
   return camera;
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 #include "preset/preset.h"
 #include "ui/state/selection.h"
-#include "ui/view/sight.h"
+#include "ui/view/pinhole.h"
 
 #include <glm/glm.hpp>
 
@@ -18,7 +18,7 @@ struct Grip {
   glm::dvec3 pivot{0};          ///< of an object: pivot_of
 };
 /// Nothing where nothing is selected. seen: may be null.
-std::optional<Grip> grip_of(const preset::Preset& preset, const Selection& selection, const SeenScene* seen);
+std::optional<Grip> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen);
 /// The tool that is asked for where the grip allows it; else the first that it allows. A point light is moved only.
 Handles::Tool usable_tool(const Grip& grip, Handles::Tool wanted);
 
@@ -44,9 +44,9 @@ inline constexpr double snap_deg = 15, snap_factor = 0.1;
 enum class Nudge { left, right, up, down, away, nearer };
 /// Nothing where nothing is selected, or the camera sees nothing.
 std::optional<preset::Preset> nudged(const preset::Preset& preset, const Selection& selection, const Handles& handles,
-                                     const SeenScene* seen, Nudge nudge);
+                                     const ViewedScene* seen, Nudge nudge);
 
 /// The camera with what is selected as its target; nothing where that is not a place, or the camera could not look there.
-std::optional<preset::Camera> looking_at(const preset::Preset& preset, const Selection& selection, const SeenScene* seen);
+std::optional<preset::Camera> looking_at(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen);
 
 } // namespace nephroid::ui

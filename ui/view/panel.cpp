@@ -49,12 +49,12 @@ void draw_marks(const Chosen& chosen, const Placement& placement, const std::arr
 void draw_lines(const Context& context, const Placement& placement, const std::array<int, 2>& picture)
 {
   if (context.chosen.lines.empty() || !context.preset() || !context.comparing.shows_run_alone()) return;
-  const auto sight = make_sight(engine::camera_of(*context.preset()), placement, picture);
-  if (!sight) return;
+  const auto pinhole = make_pinhole(engine::camera_of(*context.preset()), placement, picture);
+  if (!pinhole) return;
   for (const auto& [colour, width] : {std::pair{colour::outline, 3.0f}, std::pair{colour::accent, 1.5f}})
     for (const std::vector<preset::Vec3>& line : context.chosen.lines)
       for (std::size_t i = 1; i < line.size(); ++i) {
-        const auto from = sight->to_screen(to_vector(line[i - 1])), to = sight->to_screen(to_vector(line[i]));
+        const auto from = pinhole->to_screen(to_vector(line[i - 1])), to = pinhole->to_screen(to_vector(line[i]));
         if (from && to) ImGui::GetWindowDrawList()->AddLine(vec(*from), vec(*to), colour, width * scale());
       }
 }

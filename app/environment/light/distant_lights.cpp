@@ -50,12 +50,12 @@ std::vector<DistantLight> lamps(const scene::Scene& scene)
 
 std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings, const std::vector<glm::dvec3>& from)
 {
-  Sight sight;
+  Visibility visibility;
   for (DistantLight& light : lights) {
     const glm::vec3 way(-light.direction);
     const std::vector<shared::float4> to_light(from.size(), {way.x, way.y, way.z, 0});
     const std::vector<std::uint8_t> free =
-        sight.free(surroundings, compute::Buffer(surroundings.context, "direction of a lamp", to_light), 0, from);
+        visibility.free(surroundings, compute::Buffer(surroundings.context, "direction of a lamp", to_light), 0, from);
     light.irradiance *= static_cast<double>(std::ranges::count(free, 1)) / static_cast<double>(from.size());
   }
   return lights;

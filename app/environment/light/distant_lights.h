@@ -25,7 +25,7 @@ std::vector<DistantLight> environment_lights(const std::vector<VisibleLight>& li
 /// The scene's directional lights. Throws bad_input at FILE#/scene/lights/INDEX for a light of another type: it has no one direction.
 std::vector<DistantLight> lamps(const scene::Scene& scene);
 
-/// Each light's part that Sight sees from points of the object. surroundings, from: as Sight has them.
+/// Each light's part that Visibility sees from points of the object. surroundings, from: as Visibility has them.
 std::vector<DistantLight> seen_lights(std::vector<DistantLight> lights, tracing::World& surroundings, const std::vector<glm::dvec3>& from);
 
 /// Caustics that one light makes by one baked direction: its spheres, turned so that they fit the light.

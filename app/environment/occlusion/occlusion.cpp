@@ -78,7 +78,7 @@ Occlusion::Occlusion(const compute::Context& context, const Segmentation& segmen
 std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from)
 {
   if (surroundings.buffers.primitives.size() == 0 || whole_.empty()) return whole_;
-  const std::vector<std::uint8_t> is_seen = sight_.free(surroundings, directions_, rotate_deg, from);
+  const std::vector<std::uint8_t> is_seen = visibility_.free(surroundings, directions_, rotate_deg, from);
   const std::size_t samples = samples_per_light(whole_.size());
   std::vector<VisibleLight> visible = whole_;
   for (std::size_t light = 0; light < visible.size(); ++light) {
@@ -103,7 +103,7 @@ std::vector<VisibleLight> Occlusion::visible_lights(tracing::World& surroundings
   return visible;
 }
 
-std::vector<std::uint8_t> Sight::free(tracing::World& surroundings, const compute::Buffer<shared::float4>& directions, double rotate_deg,
+std::vector<std::uint8_t> Visibility::free(tracing::World& surroundings, const compute::Buffer<shared::float4>& directions, double rotate_deg,
                                       const std::vector<glm::dvec3>& from)
 {
   if (!kernel_.state || defines_ != surroundings.defines) {

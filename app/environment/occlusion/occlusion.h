@@ -46,7 +46,7 @@ struct VisibleLight {
 std::vector<VisibleLight> whole_lights(const Segmentation& segmentation);
 
 /// Which directions lead past all that stands around the object.
-class Sight {
+class Visibility {
 public:
   /// Of each direction, whether nothing stands there as seen from one of some points: neighbours in the list of directions look from points
   /// that are far from each other. Glass and mirrors hide light as everything does. surroundings: surroundings_world, on the same device.
@@ -67,7 +67,7 @@ public:
   /// cube: that the segmentation was made of. Both may go afterwards. Throws failed where the device has not enough memory.
   Occlusion(const compute::Context& context, const Segmentation& segmentation, const CubeMap& cube);
 
-  /// Of each light, what Sight sees from some points, each of which looks at other cells of the light: best surface_points of the object.
+  /// Of each light, what Visibility sees from some points, each of which looks at other cells of the light: best surface_points of the object.
   /// From its middle alone an edge before the sun would hide all at once. rotate_deg: how the map is turned.
   std::vector<VisibleLight> visible_lights(tracing::World& surroundings, double rotate_deg, const std::vector<glm::dvec3>& from);
 
@@ -75,7 +75,7 @@ private:
   std::vector<VisibleLight> whole_;
   std::vector<LightSample> samples_;
   compute::Buffer<shared::float4> directions_;
-  Sight sight_;
+  Visibility visibility_;
 };
 
 /// What stands around the object whose caustics are shown: what hides the environment from it, and what its caustics fall on. That is

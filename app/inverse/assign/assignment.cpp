@@ -126,7 +126,7 @@ void Assignment::advance()
 {
   if (refinement_) return refine();
   const std::size_t count = std::min(facets_.batch(), layout_.facet_count() - next_);
-  facets_.look(next_, count, smoothing_weight());
+  facets_.improve(next_, count, smoothing_weight());
   forget();
   next_ += count;
   tried_ += count;

@@ -182,7 +182,7 @@ DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout
   smear_x_ = propose.kernel("smear_x");
   smear_y_ = propose.kernel("smear_y");
   propose_ = propose.kernel("propose");
-  look_ = search.kernel("look");
+  improve_ = search.kernel("improve");
   claim_ = search.kernel("claim");
   take_ = search.kernel("take");
 }
@@ -250,14 +250,14 @@ void DeviceFacets::find_better(std::size_t first, std::size_t count, double smoo
                                       {"first", first_facet}, {"count", facets}};
   if (own > 0) {
     propose_.run(own, group, shared, {{"smeared", smeared_}, {"seed", seed_}, {"sweep", sweep_}, {"candidates", candidates_}});
-    look_.run(own, group, shared, {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
+    improve_.run(own, group, shared, {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
   }
   if (communicator.is_alone()) return;
   share(found_, begin, own, count);
   share(done_, begin, own, count);
 }
 
-void DeviceFacets::look(std::size_t first, std::size_t count, double smoothing)
+void DeviceFacets::improve(std::size_t first, std::size_t count, double smoothing)
 {
   const auto first_facet = static_cast<std::uint32_t>(first), facets = static_cast<std::uint32_t>(count);
   const auto weight = static_cast<float>(smoothing);

@@ -48,7 +48,7 @@ public:
   std::size_t batch() const { return batch_; }
   /// Facets first .. first + count - 1 of the order look for better slopes and take them. What they gain is what each of them would gain
   /// alone. smoothing: what a facet's Cost_N weighs in the sum.
-  void look(std::size_t first, std::size_t count, double smoothing);
+  void improve(std::size_t first, std::size_t count, double smoothing);
 
   /// Of the weighted squares, by each facet's slope.
   std::vector<glm::dvec2> gradient();
@@ -68,7 +68,7 @@ private:
   compute::Buffer<std::int64_t> light_;
   compute::Buffer<std::uint32_t> order_, claims_;
   compute::Buffer<int> done_;
-  compute::Kernel add_light_, find_lack_, find_gradient_, smear_x_, smear_y_, propose_, look_, claim_, take_;
+  compute::Kernel add_light_, find_lack_, find_gradient_, smear_x_, smear_y_, propose_, improve_, claim_, take_;
   std::uint32_t sweep_ = 0, turn_ = 0;
   shared::uint2 seed_{};
 

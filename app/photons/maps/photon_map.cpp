@@ -2,7 +2,7 @@
 #include "photons/maps/photon_map.h"
 
 #include "photons/maps/eye_paths.h"
-#include "photons/sight.h"
+#include "photons/pixel_surfaces.h"
 #include "tracing/scales.h"
 
 #include <fmt/format.h>
@@ -29,13 +29,13 @@ double bent_share(const scene::Scene& scene, const scene::Bvh& bvh)
   if (!scene.camera.inside.empty()) return 1;
   const int width = scene.camera.width, height = scene.camera.height,
             step = std::max(1, static_cast<int>(std::sqrt(width * 1.0 * height) / 64));
-  int bent = 0, looks = 0;
+  int bent = 0, rays = 0;
   for (int row = step / 2; row < height; row += step)
-    for (int column = step / 2; column < width; column += step, ++looks) {
-      const int object = look_through_pixel(scene, bvh, scene.camera, column, row, 1).first.object;
+    for (int column = step / 2; column < width; column += step, ++rays) {
+      const int object = surfaces_of_pixel(scene, bvh, scene.camera, column, row, 1).first.object;
       bent += object >= 0 && material_of(scene, scene.objects[static_cast<std::size_t>(object)]).type != scene::Material::Type::diffuse;
     }
-  return static_cast<double>(bent) / looks;
+  return static_cast<double>(bent) / rays;
 }
 
 /// Width of what a pixel covers at the distance of the scene's middle.

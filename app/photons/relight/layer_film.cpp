@@ -36,7 +36,7 @@ void add_samples(const Survey& survey, int x, int y, int weight, std::vector<See
 int own_weight(const Survey& survey) { return 1 + 8 * survey.samples; }
 
 /// What a pixel sees, by falling count; of equal ones the smaller number first.
-void look(const Survey& survey, int x, int y, std::vector<Seen>& list)
+void count_reflectors(const Survey& survey, int x, int y, std::vector<Seen>& list)
 {
   list.clear();
   for (int dy = -1; dy <= 1; ++dy)
@@ -117,7 +117,7 @@ LayerCells make_layer_cells(const Survey& survey, std::size_t most, Unseen unsee
   std::size_t longest = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
     std::vector<Seen> list;
-    look(survey, static_cast<int>(i) % survey.width, static_cast<int>(i) / survey.width, list);
+    count_reflectors(survey, static_cast<int>(i) % survey.width, static_cast<int>(i) / survey.width, list);
     if (list.empty() && unseen == Unseen::a_cell && survey.reflector_count > 0) list.push_back({i > 0 ? seen[i - 1][0].reflector : 0, 0});
     longest = std::max(longest, list.size());
     seen[i] = std::move(list);

@@ -17,7 +17,7 @@ namespace nephroid::photons {
 
 /// Pixels that paths from the eye are for.
 struct PixelLists {
-  std::vector<std::uint32_t> glass;         ///< glass_pixels() in sight.h
+  std::vector<std::uint32_t> glass;         ///< glass_pixels() in pixel_surfaces.h
   std::vector<bool> may_show_glass;         ///< [pixel]
   std::uint32_t count = 0;                  ///< pixels of the picture
   compute::Buffer<std::uint32_t> on_device; ///< all of them, then those of glass

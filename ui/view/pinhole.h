@@ -20,7 +20,7 @@ struct Ray {
 };
 
 /// A pinhole, as scene::make_camera has it, and where its picture lies.
-struct Sight {
+struct Pinhole {
   glm::dvec3 position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1}; ///< the last three are orthonormal
   double tan_x = 1, tan_y = 1;                                            ///< of half the fields of view
   Point corner{0, 0}, size{1, 1};                                         ///< of the whole picture on the screen
@@ -34,10 +34,10 @@ struct Sight {
 
 /// shown: the size in pixels of the picture that `placement` places, which may still be of another size than the camera's. Nothing for a
 /// camera that sees nothing: at its own target, or looking along its up.
-std::optional<Sight> make_sight(const preset::Camera& camera, const Placement& placement, const std::array<int, 2>& shown);
+std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placement& placement, const std::array<int, 2>& shown);
 
 /// What the View keeps of a loaded scene (RunInHand::seen).
-struct SeenScene {
+struct ViewedScene {
   std::shared_ptr<const run::LoadedScene> loaded;
   std::vector<preset::Object> objects; ///< as the preset had them when it was loaded
   std::vector<scene::Bounds> boxes;    ///< of each object, before its transform
@@ -48,14 +48,14 @@ struct SeenScene {
 
 /// The first object that the ray hits, an index into scene.objects. An object that was moved, turned or scaled since the scene was
 /// loaded is found where it is now; one of another shape or mesh, or a new one, is not found before the scene is loaded again.
-std::optional<std::size_t> object_at(const SeenScene& seen, const preset::Preset& preset, const Ray& ray);
+std::optional<std::size_t> object_at(const ViewedScene& seen, const preset::Preset& preset, const Ray& ray);
 
 /// The box about an object before its transform; nothing where the scene that was loaded has another one in its place.
-std::optional<scene::Bounds> local_box(const SeenScene* seen, const preset::Preset& preset, std::size_t object);
+std::optional<scene::Bounds> local_box(const ViewedScene* seen, const preset::Preset& preset, std::size_t object);
 
 /// What an object turns about and is scaled from, before its transform: a shape's own middle, or the middle of the box about a mesh, whose
 /// origin may lie anywhere.
-glm::dvec3 pivot_of(const SeenScene* seen, const preset::Preset& preset, std::size_t object);
+glm::dvec3 pivot_of(const ViewedScene* seen, const preset::Preset& preset, std::size_t object);
 
 /// Moves the camera round its target: right_deg about the camera's up (positive: the camera goes to its right), then up_deg
 /// towards up. It stops 1 degree short of looking along up, where left and right would swap.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ui/view/sight.h"
+#include "ui/view/pinhole.h"
 
 #include "preset/read.h"
 #include "scene/bvh.h"
@@ -94,7 +94,7 @@ nlohmann::ordered_json camera_fields(const preset::Preset& preset)
 
 } // namespace
 
-std::optional<Point> Sight::to_screen(const glm::dvec3& p) const
+std::optional<Point> Pinhole::to_screen(const glm::dvec3& p) const
 {
   const glm::dvec3 arm = p - position;
   const double ahead = glm::dot(arm, forward);
@@ -103,43 +103,43 @@ std::optional<Point> Sight::to_screen(const glm::dvec3& p) const
   return Point{corner[0] + size[0] * (x + 1) / 2, corner[1] + size[1] * (1 - y) / 2};
 }
 
-Ray Sight::ray(const Point& screen) const
+Ray Pinhole::ray(const Point& screen) const
 {
   const double x = 2 * (screen[0] - corner[0]) / size[0] - 1, y = 1 - 2 * (screen[1] - corner[1]) / size[1];
   return {position, forward + x * tan_x * right + y * tan_y * up};
 }
 
-std::optional<Sight> make_sight(const preset::Camera& camera, const Placement& placement, const std::array<int, 2>& shown)
+std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placement& placement, const std::array<int, 2>& shown)
 {
-  Sight sight;
-  sight.position = to_vector(camera.position);
-  const glm::dvec3 arm = to_vector(camera.target) - sight.position;
+  Pinhole pinhole;
+  pinhole.position = to_vector(camera.position);
+  const glm::dvec3 arm = to_vector(camera.target) - pinhole.position;
   const double distance = glm::length(arm);
   if (!(distance > 0 && std::isfinite(distance))) return std::nullopt;
-  sight.forward = arm / distance;
-  const glm::dvec3 right = glm::cross(sight.forward, to_vector(camera.up));
+  pinhole.forward = arm / distance;
+  const glm::dvec3 right = glm::cross(pinhole.forward, to_vector(camera.up));
   const double across = glm::length(right);
   if (!(across > 1e-6 * glm::length(to_vector(camera.up)))) return std::nullopt;
-  sight.right = right / across;
-  sight.up = glm::cross(sight.right, sight.forward);
-  sight.tan_y = std::tan(glm::radians(camera.fov_deg) / 2);
-  sight.tan_x = sight.tan_y * camera.resolution[0] / camera.resolution[1];
-  sight.corner = placement.origin;
-  for (std::size_t i = 0; i < 2; ++i) sight.size[i] = placement.scale * shown[i];
-  return sight;
+  pinhole.right = right / across;
+  pinhole.up = glm::cross(pinhole.right, pinhole.forward);
+  pinhole.tan_y = std::tan(glm::radians(camera.fov_deg) / 2);
+  pinhole.tan_x = pinhole.tan_y * camera.resolution[0] / camera.resolution[1];
+  pinhole.corner = placement.origin;
+  for (std::size_t i = 0; i < 2; ++i) pinhole.size[i] = placement.scale * shown[i];
+  return pinhole;
 }
 
-std::any SeenScene::look(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
+std::any ViewedScene::look(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
 {
-  auto seen = std::make_shared<SeenScene>();
+  auto seen = std::make_shared<ViewedScene>();
   seen->loaded = loaded;
   const scene::Scene& scene = loaded->scene;
   if (scene.objects.size() == preset.scene.objects.size()) seen->objects = preset.scene.objects;
   for (std::size_t i = 0; i < seen->objects.size(); ++i) seen->boxes.push_back(box_of(scene, scene.objects[i], seen->objects[i].transform));
-  return std::shared_ptr<const SeenScene>(std::move(seen));
+  return std::shared_ptr<const ViewedScene>(std::move(seen));
 }
 
-std::optional<std::size_t> object_at(const SeenScene& seen, const preset::Preset& preset, const Ray& ray)
+std::optional<std::size_t> object_at(const ViewedScene& seen, const preset::Preset& preset, const Ray& ray)
 {
   const scene::Scene& scene = seen.loaded->scene;
   const std::vector<preset::Object>& now = preset.scene.objects;
@@ -162,7 +162,7 @@ std::optional<std::size_t> object_at(const SeenScene& seen, const preset::Preset
   return nearest;
 }
 
-std::optional<scene::Bounds> local_box(const SeenScene* seen, const preset::Preset& preset, std::size_t object)
+std::optional<scene::Bounds> local_box(const ViewedScene* seen, const preset::Preset& preset, std::size_t object)
 {
   const std::vector<preset::Object>& now = preset.scene.objects;
   if (!seen || object >= seen->objects.size() || object >= now.size() || !is_same_surface(now[object], seen->objects[object]))
@@ -170,7 +170,7 @@ std::optional<scene::Bounds> local_box(const SeenScene* seen, const preset::Pres
   return seen->boxes[object];
 }
 
-glm::dvec3 pivot_of(const SeenScene* seen, const preset::Preset& preset, std::size_t object)
+glm::dvec3 pivot_of(const ViewedScene* seen, const preset::Preset& preset, std::size_t object)
 {
   const auto box = local_box(seen, preset, object);
   if (!box || preset.scene.objects[object].shape) return glm::dvec3(0);

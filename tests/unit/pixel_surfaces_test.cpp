@@ -2,12 +2,12 @@
 // The camera's frame and pixel rays by hand, the corners of objects and the box about them, host rays through the tree against every
 // triangle on its own, and where a look through a pixel ends, against Snell's law by hand.
 #include "photons/clusters/clusters.h"
-#include "photons/sight.h"
+#include "photons/pixel_surfaces.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/presets.h"
 
-namespace nephroid::scene::sight_test {
+namespace nephroid::scene::pixel_surfaces_test {
 
 using glm::dvec3;
 
@@ -244,7 +244,7 @@ preset::Object& add(preset::Preset& p, const char* name, preset::Shape::Type typ
 }
 
 struct Seen {
-  photons::Sight sight;
+  photons::PixelSurfaces surfaces;
   glm::dvec3 place; ///< of its end, in the preset's coordinates
   std::string first, last;
 };
@@ -252,9 +252,9 @@ struct Seen {
 Seen see(const preset::Preset& p)
 {
   const scene::Scene scene = scene::load_scene(p);
-  const photons::Sight sight = photons::look_through_pixel(scene, scene::build_bvh(scene.geometry), scene.camera, 0, 0);
+  const photons::PixelSurfaces surfaces = photons::surfaces_of_pixel(scene, scene::build_bvh(scene.geometry), scene.camera, 0, 0);
   const auto name = [&](int object) { return object < 0 ? "" : scene.objects[static_cast<std::size_t>(object)].name; };
-  return {sight, scene.origin + glm::dvec3(sight.last.position), name(sight.first.object), name(sight.last.object)};
+  return {surfaces, scene.origin + glm::dvec3(surfaces.last.position), name(surfaces.first.object), name(surfaces.last.object)};
 }
 
 void expect_seen(const Seen& seen, const char* first, const char* last)
@@ -263,7 +263,7 @@ void expect_seen(const Seen& seen, const char* first, const char* last)
   EXPECT_EQ(seen.last, last);
 }
 
-TEST(Sight, a_pane_displaces_what_is_behind_it)
+TEST(PixelSurfaces, a_pane_displaces_what_is_behind_it)
 {
   // Straight down through a pane of thickness t that leans by a: t sin(a - b) / cos b to the side, with sin a = n sin b.
   constexpr double lean = 40 * degree, thickness = 0.5;
@@ -277,12 +277,12 @@ TEST(Sight, a_pane_displaces_what_is_behind_it)
   EXPECT_NEAR(std::abs(seen.place.x), thickness * std::sin(lean - b) / std::cos(b), 1e-5);
   EXPECT_NEAR(seen.place.y, -8, 1e-5);
   EXPECT_NEAR(seen.place.z, 0, 1e-5);
-  EXPECT_NEAR(glm::length(glm::dvec3(seen.sight.way) - glm::dvec3(0, -1, 0)), 0, 1e-6);
+  EXPECT_NEAR(glm::length(glm::dvec3(seen.surfaces.way) - glm::dvec3(0, -1, 0)), 0, 1e-6);
   // A pixel is 1 degree wide; the way is 8 long, and a little more.
-  EXPECT_NEAR(seen.sight.spacing, 8 * 2 * std::tan(0.5 * degree), 0.01 * seen.sight.spacing);
+  EXPECT_NEAR(seen.surfaces.spacing, 8 * 2 * std::tan(0.5 * degree), 0.01 * seen.surfaces.spacing);
 }
 
-TEST(Sight, total_reflection_is_followed)
+TEST(PixelSurfaces, total_reflection_is_followed)
 {
   // From within a block: 60 degrees onto its side is beyond the critical angle of 41.8, then 30 onto its top, where the look leaves it.
   preset::Preset p = one_pixel({std::cos(60 * degree), std::sin(60 * degree), 0});
@@ -296,7 +296,7 @@ TEST(Sight, total_reflection_is_followed)
   EXPECT_NEAR(seen.place.y, 5, 1e-5);
 }
 
-TEST(Sight, a_mirror_is_followed_and_an_empty_one_shows_itself)
+TEST(PixelSurfaces, a_mirror_is_followed_and_an_empty_one_shows_itself)
 {
   preset::Preset p = one_pixel({1, -1, 0});
   add(p, "mirror", preset::Shape::Type::quad, "mirror", {4, 1, 4}, {1, -1, 0});
@@ -307,13 +307,13 @@ TEST(Sight, a_mirror_is_followed_and_an_empty_one_shows_itself)
   test::expect_near(seen.place, {5, 3, 0}, 1e-5);
 }
 
-TEST(Sight, glass_that_bends_nothing_is_not_seen)
+TEST(PixelSurfaces, glass_that_bends_nothing_is_not_seen)
 {
   // A box of air, and one of the same glass inside a pane: neither shows, alone or before what does.
   preset::Preset p = one_pixel({0, 0, -1});
   p.scene.materials["air"] = test::glass(1);
   add(p, "nothing", preset::Shape::Type::box, "air", {1, 1, 1}, {0, 0, -2});
-  EXPECT_EQ(see(p).sight.first.object, -1);
+  EXPECT_EQ(see(p).surfaces.first.object, -1);
   add(p, "inner", preset::Shape::Type::box, "glass", {1, 1, 1}, {0, 0, -5});
   add(p, "pane", preset::Shape::Type::box, "glass", {3, 3, 3}, {0, 0, -5});
   expect_seen(see(p), "pane", "pane");
@@ -321,14 +321,14 @@ TEST(Sight, glass_that_bends_nothing_is_not_seen)
   expect_seen(see(p), "pane", "wall");
 }
 
-TEST(Sight, nothing_is_seen_where_nothing_is)
+TEST(PixelSurfaces, nothing_is_seen_where_nothing_is)
 {
   const Seen seen = see(one_pixel({0, 0, -1}));
-  EXPECT_EQ(seen.sight.first.object, -1);
-  EXPECT_EQ(seen.sight.last.object, -1);
+  EXPECT_EQ(seen.surfaces.first.object, -1);
+  EXPECT_EQ(seen.surfaces.last.object, -1);
 }
 
-TEST(Sight, a_ball_bends_about_its_normals)
+TEST(PixelSurfaces, a_ball_bends_about_its_normals)
 {
   // A ball of n = 1.5 and radius 1: a look that meets it h off its axis leaves it turned towards the axis by 2 (a - b), sin a = h, sin b =
   // h / n.
@@ -340,9 +340,9 @@ TEST(Sight, a_ball_bends_about_its_normals)
   const Seen seen = see(p);
   EXPECT_EQ(seen.last, "wall");
   const double turn = 2 * (std::asin(h) - std::asin(h / n));
-  EXPECT_NEAR(seen.sight.way.x, -std::sin(turn), 1e-6);
+  EXPECT_NEAR(seen.surfaces.way.x, -std::sin(turn), 1e-6);
   // The way leaves the ball with the same distance h from its centre.
   EXPECT_NEAR(seen.place.x, h / std::cos(turn) - 6 * std::tan(turn), 1e-5);
 }
 
-} // namespace nephroid::scene::sight_test
+} // namespace nephroid::scene::pixel_surfaces_test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the middle of a pixel shows: the diffuse surface that a straight look ends at, through glass and by way of mirrors. For what is done
+// What the middle of a pixel shows: the diffuse surface that a ray from the camera ends at, through glass and by way of mirrors. For what is done
 // to a picture on the host; the picture itself is made by kernels/tracing/eye_path.h, which follows the same rules at every wavelength and
 // with both branches of each reflection. And which pixels may show glass or a mirror at all.
 #pragma once
@@ -13,7 +13,7 @@
 
 namespace nephroid::photons {
 
-struct Sight {
+struct PixelSurfaces {
   struct Surface {
     glm::vec3 position{0}, normal{0}; ///< scene units; unit, of the triangle
     int object = -1;                  ///< -1: none is met
@@ -26,7 +26,7 @@ struct Sight {
 
 /// camera: the scene's, or one of the same view with other pixels. Mirrors are followed, and so is glass: refracted at the middle of the
 /// wavelengths, reflected where all light is.
-Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row,
+PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row,
                          int most_surfaces = 32);
 
 /// The pixels, row after row, whose square the outline of a triangle or ellipsoid of glass or of a mirror may touch, whatever stands before

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "photons/sight.h"
+#include "photons/pixel_surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -21,9 +21,9 @@ struct Place {
   glm::dvec3 position, geometric, shading; ///< normals: unit, outwards; alike unless the object is smooth
 };
 
-class Look {
+class CameraRay {
 public:
-  Look(const scene::Scene& scene, const scene::Bvh& bvh, const glm::dvec3& way)
+  CameraRay(const scene::Scene& scene, const scene::Bvh& bvh, const glm::dvec3& way)
       : scene_(scene), bvh_(bvh), from_(scene.camera.position), way_(way), inside_(scene.camera.inside)
   {
   }
@@ -54,7 +54,7 @@ public:
     else if (entry != beyond.rend())
       beyond.erase(std::next(entry).base());
     else
-      near = place.object; // an open mesh: the look got in without meeting its surface
+      near = place.object; // an open mesh: the ray got in without meeting its surface
     const double ratio = index_of(near) / index_of(medium_of(beyond));
     if (ratio == 1 || bend(place, ratio)) inside_ = std::move(beyond);
     return ratio != 1;
@@ -123,7 +123,7 @@ private:
   const scene::Bvh& bvh_;
   glm::dvec3 from_, way_;
   std::vector<int> inside_;                  ///< the dielectric objects around `from_`, the one entered last at the end
-  std::uint32_t left_ = scene::no_primitive; ///< that the look leaves
+  std::uint32_t left_ = scene::no_primitive; ///< that the ray leaves
   double length_ = 0;
 };
 
@@ -214,42 +214,42 @@ private:
 
 } // namespace
 
-Sight look_through_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row,
+PixelSurfaces surfaces_of_pixel(const scene::Scene& scene, const scene::Bvh& bvh, const scene::Camera& camera, int column, int row,
                          int most_surfaces)
 {
   const double x = 2 * (column + 0.5) / camera.width - 1, y = 1 - 2 * (row + 0.5) / camera.height;
   const glm::dvec3 way =
       glm::dvec3(camera.forward) + x * camera.tan_x * glm::dvec3(camera.right) + y * camera.tan_y * glm::dvec3(camera.up);
   const double spacing = 2 * std::max(camera.tan_x / camera.width, camera.tan_y / camera.height) / glm::length(way);
-  Sight sight;
+  PixelSurfaces surfaces;
   if (camera.receiver >= 0) {
     const scene::Object& receiver = scene.objects[static_cast<std::size_t>(camera.receiver)];
     const glm::dvec3 eye = camera.position, corner = scene.geometry.positions[scene::triangles_of(scene, receiver).front().x];
     const double distance = glm::dot(corner - eye, glm::dvec3(camera.forward));
-    sight.first = sight.last = {glm::vec3(eye + distance * way), -camera.forward, camera.receiver};
-    sight.way = glm::vec3(glm::normalize(way));
-    sight.spacing = static_cast<float>(spacing * glm::length(way) * distance);
-    return sight;
+    surfaces.first = surfaces.last = {glm::vec3(eye + distance * way), -camera.forward, camera.receiver};
+    surfaces.way = glm::vec3(glm::normalize(way));
+    surfaces.spacing = static_cast<float>(spacing * glm::length(way) * distance);
+    return surfaces;
   }
-  Look look(scene, bvh, glm::normalize(way));
+  CameraRay ray(scene, bvh, glm::normalize(way));
   for (int surface = 0; surface < most_surfaces; ++surface) {
-    const std::optional<Place> place = look.next();
+    const std::optional<Place> place = ray.next();
     if (!place) break;
     const scene::Object& object = scene.objects[static_cast<std::size_t>(place->object)];
     const Type type = material_of(scene, object).type;
-    const glm::dvec3 arrives = look.way();
-    if (type == Type::mirror) look.reflect(*place);
-    if (type == Type::dielectric && !look.cross(*place)) continue;
-    const bool is_first = sight.first.object < 0;
+    const glm::dvec3 arrives = ray.way();
+    if (type == Type::mirror) ray.reflect(*place);
+    if (type == Type::dielectric && !ray.cross(*place)) continue;
+    const bool is_first = surfaces.first.object < 0;
     if (is_first || type == Type::diffuse) {
-      sight.last = {glm::vec3(place->position), glm::vec3(place->geometric), place->object};
-      sight.way = glm::vec3(arrives);
-      sight.spacing = static_cast<float>(spacing * look.length());
+      surfaces.last = {glm::vec3(place->position), glm::vec3(place->geometric), place->object};
+      surfaces.way = glm::vec3(arrives);
+      surfaces.spacing = static_cast<float>(spacing * ray.length());
     }
-    if (is_first) sight.first = sight.last;
+    if (is_first) surfaces.first = surfaces.last;
     if (type == Type::diffuse) break;
   }
-  return sight;
+  return surfaces;
 }
 
 std::vector<std::uint32_t> glass_pixels(const scene::Scene& scene)
