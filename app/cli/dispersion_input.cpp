@@ -52,9 +52,9 @@ void add_outside_option(Verb& verb, std::string& chosen)
   verb.option("--outside", chosen,
               {.type = "POLICY",
                .says = "Outside the data's range: hold its end, extrapolate, or refuse; default: extrapolate a formula, hold a table",
-               .words = words_of<preset::Outside>()});
+               .words = words_of<preset::Extrapolation>()});
 }
 
-optics::Outside outside_policy(const std::string& chosen) { return scene::outside_policy(chosen_of<preset::Outside>(chosen)); }
+optics::Extrapolation outside_policy(const std::string& chosen) { return scene::outside_policy(chosen_of<preset::Extrapolation>(chosen)); }
 
 } // namespace nephroid::cli

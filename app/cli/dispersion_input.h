@@ -33,6 +33,6 @@ E chosen_of(const std::string& word)
 
 /// --outside hold|extrapolate|refuse; chosen is read back by outside_policy after parsing and is "automatic" without the option.
 void add_outside_option(Verb& verb, std::string& chosen);
-optics::Outside outside_policy(const std::string& chosen);
+optics::Extrapolation outside_policy(const std::string& chosen);
 
 } // namespace nephroid::cli

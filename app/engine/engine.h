@@ -42,7 +42,7 @@ struct Introduction {
 };
 
 /// What became of a file that a preset took.
-struct Taken {
+struct PictureEdit {
   std::string edit; ///< the edit's name in the history: "cast face.png"
   std::string note; ///< a sentence without a full stop
 };
@@ -83,7 +83,7 @@ struct Engine {
 
   /// Puts a picture's file, which is there and was dropped on the window, into the preset. Throws bad_input where that has no place for it.
   /// Null: its presets take no picture.
-  Taken (*take_picture)(preset::Preset& preset, const std::filesystem::path& file) = nullptr;
+  PictureEdit (*take_picture)(preset::Preset& preset, const std::filesystem::path& file) = nullptr;
 
   Introduction introduction = {};
 };

@@ -63,7 +63,7 @@ inline constexpr std::string_view receiver_part = "parts of the receiver's short
 inline void describe(preset::Fields& v, Picture& p)
 {
   v.about("InversePicture", "A grey picture that the object casts.");
-  v.shorthand(preset::Bare::text, Picture::Type::file, "file");
+  v.shorthand(preset::BareValue::text, Picture::Type::file, "file");
   using Type = Picture::Type;
   const auto part = [&](std::string_view name, std::string_view sentence, auto& value) {
     v.field(name, sentence, value, {.unit = receiver_part, .bounds = preset::within(0.001, 2)});

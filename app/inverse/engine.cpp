@@ -14,7 +14,7 @@ namespace nephroid::inverse {
 namespace {
 
 /// A receiver with a drawing casts it now, or else the first one.
-engine::Taken take_picture(preset::Preset& preset, const std::filesystem::path& file)
+engine::PictureEdit take_picture(preset::Preset& preset, const std::filesystem::path& file)
 {
   std::vector<Receiver>& receivers = settings(preset).receivers;
   if (receivers.empty()) throw bad_input(file.string(), "the preset has no receiver to cast it on", "", "add one in Parameters");

@@ -50,7 +50,7 @@ void add_conflicts(job::Snapshot& snapshot, const Conflicts& conflicts)
   }
 }
 
-void add_fates(job::Snapshot& snapshot, const Fates& f)
+void add_fates(job::Snapshot& snapshot, const RayOutcomes& f)
 {
   add(snapshot, "light", {{"sent", f.sent}, {"reflected", f.reflected}, {"lost", f.lost}, {"by_walls", f.by_walls}});
 }

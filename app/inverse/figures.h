@@ -19,7 +19,7 @@ void add_noise(job::Snapshot& snapshot, const Cost& noise);
 void add_conflicts(job::Snapshot& snapshot, const Conflicts& conflicts);
 
 /// Where the light goes.
-void add_fates(job::Snapshot& snapshot, const Fates& fates);
+void add_fates(job::Snapshot& snapshot, const RayOutcomes& outcomes);
 
 void add_object(job::Snapshot& snapshot, const Layout& layout, const Solid& solid, const std::vector<glm::dvec2>& slopes);
 

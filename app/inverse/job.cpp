@@ -312,7 +312,7 @@ private:
     if (this->judged()) add_noise(snapshot, mean(judge_->noise(targets_)));
     if (conflicts_) add_conflicts(snapshot, *conflicts_);
     if (!this->judged()) return;
-    add_fates(snapshot, judge_->fates());
+    add_fates(snapshot, judge_->outcomes());
     add_object(snapshot, layout_, *solid_, method_->slopes());
   }
 
@@ -340,7 +340,7 @@ private:
     };
     const std::string tolerances = tolerances_ ? tolerance_table(judge_->costs(targets_), tolerances_->rows()) : "";
     const Settings& s = settings(preset_);
-    add_text("workshop.md", [material = material_of(s, layout_.n), tolerances, making = Making{s.tool_radius_mm, s.layer_mm}](
+    add_text("workshop.md", [material = material_of(s, layout_.n), tolerances, making = Manufacturing{s.tool_radius_mm, s.layer_mm}](
                                 const Layout& of, const Solid& solid) { return workshop_page(of, solid, material, making) + tolerances; });
     if (tolerances_)
       add_text("tolerance.csv", [csv = tolerance_csv(judge_->costs(targets_), tolerances_->rows())](const auto&...) { return csv; });

@@ -173,7 +173,7 @@ Judge::Judge(const compute::Context& context, const Layout& layout, const Solid&
   screens_ = compute::Buffer(context, "screens", screens);
   for (auto& half : light_on_screens_)
     half = compute::zeroed<std::int64_t>(context, "light on the screens", layout.cell_count() * screens.size() * channels(layout));
-  fates_ = compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{FATES} * FATE_SUMS);
+  outcomes_ = compute::zeroed<std::int64_t>(context, "where the light goes", std::size_t{FATES} * FATE_SUMS);
   judge_ = solid_.program->kernel("judge");
   light_.assign(screens.size(), std::vector<double>(layout.cell_count()));
   halves_.fill(light_);
@@ -222,7 +222,7 @@ void Judge::judge_rows(std::uint32_t first, std::uint32_t count, std::uint32_t t
               {"first_row", first},
               {"count", count},
               {"light", light_on_screens_[turn % 2]},
-              {"fates", fates_}});
+              {"fates", outcomes_}});
 }
 
 void Judge::end_pair()
@@ -244,9 +244,9 @@ void Judge::read_sums()
   }
   for (std::size_t j = 0; j < light_.size(); ++j)
     for (std::size_t c = 0; c < cells; ++c) light_[j][c] = (halves_[0][j][c] + halves_[1][j][c]) / 2;
-  const std::vector<std::int64_t> fates = fates_.read_sum();
+  const std::vector<std::int64_t> outcomes = outcomes_.read_sum();
   std::array<std::int64_t, FATES> sums{};
-  for (std::size_t i = 0; i < fates.size(); ++i) sums[i % FATES] += fates[i];
+  for (std::size_t i = 0; i < outcomes.size(); ++i) sums[i % FATES] += outcomes[i];
   const auto facets = [&](int fate) { return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA / round_; };
   sum_ = {facets(FATE_REFLECTED), facets(FATE_LOST), facets(FATE_SENT), facets(FATE_BY_WALLS)};
   if (finished()) solid_ = {}; // no ray follows
@@ -266,7 +266,7 @@ std::vector<glm::dvec3> Judge::colours(std::size_t screen) const
   return xyz;
 }
 
-Fates Judge::fates() const
+RayOutcomes Judge::outcomes() const
 {
   const double all = static_cast<double>(layout_.facet_count());
   return {sum_.reflected / all, sum_.lost / all, sum_.sent / all, sum_.by_walls / all};
@@ -294,10 +294,10 @@ void Judge::state(State& state)
     state.items(light);
     if (state.is_read()) write_sum(half, light);
   }
-  std::vector<std::int64_t> fates = fates_.read_sum();
-  state.items(fates);
+  std::vector<std::int64_t> outcomes = outcomes_.read_sum();
+  state.items(outcomes);
   if (!state.is_read()) return;
-  write_sum(fates_, fates);
+  write_sum(outcomes_, outcomes);
   if (finished_) read_sums();
 }
 

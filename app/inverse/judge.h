@@ -17,7 +17,7 @@
 namespace nephroid::inverse {
 
 /// Where the light goes that falls on the front; reflected, lost and sent sum to 1, for a lamp but for noise.
-struct Fates {
+struct RayOutcomes {
   double reflected = 0; ///< by a surface that lets some of it through, the front first; it is not followed
   double lost = 0;      ///< on the object's sides, backwards, or after too many surfaces
   double sent = 0;      ///< forward, to the receivers and beside them
@@ -64,7 +64,7 @@ public:
   Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
         const std::vector<Target>& targets = no_targets);
 
-  void advance(); ///< a few rows of facets; light and fates are there once it has finished
+  void advance(); ///< a few rows of facets; light and outcomes are there once it has finished
   bool finished() const { return finished_; }
   double fraction_done() const; ///< of the rounds that it knows of
   /// What counts in each cell, in what falls on a facet: luminance of coloured light, else energy.
@@ -72,7 +72,7 @@ public:
   const std::vector<double>& frame(std::size_t i) const { return light_[layout_.distances.size() + i]; } ///< the same of layout.frames
   /// XYZ of each cell, y being light(). Of coloured light; screens are the receivers, then the frames.
   std::vector<glm::dvec3> colours(std::size_t screen) const;
-  Fates fates() const;
+  RayOutcomes outcomes() const;
   std::vector<Cost> costs(const std::vector<Target>& targets) const; ///< of each receiver
   /// How much of each figure is noise: without it, it would be the root of the difference of the squares.
   std::vector<Cost> noise(const std::vector<Target>& targets) const;
@@ -95,11 +95,11 @@ private:
   compute::Buffer<shared::float4> parts_;                         ///< of the spectrum: index and XYZ
   compute::Buffer<shared::DeviceReceiver> screens_;               ///< the receivers, then the frames
   std::array<compute::Buffer<std::int64_t>, 2> light_on_screens_; ///< of even and of odd rounds: [screen][y, x, z][cell]
-  compute::Buffer<std::int64_t> fates_;
+  compute::Buffer<std::int64_t> outcomes_;
   compute::Kernel judge_;
   int row_ = 0, round_ = 0;
   bool finished_ = false;
-  Fates sum_;                                              ///< in facets; of all rows and rounds
+  RayOutcomes sum_;                                              ///< in facets; of all rows and rounds
   std::vector<std::vector<double>> light_;                 ///< [screen][cell], in facets
   std::array<std::vector<std::vector<double>>, 2> halves_; ///< the same of even and odd rounds
 };

@@ -18,12 +18,12 @@ using Complex = std::complex<double>;
 
 double eigenvalue(int k, int nodes, double spacing) { return 2 * (1 - std::cos(glm::pi<double>() * k / nodes)) / (spacing * spacing); }
 
-enum class Way { there, back };
+enum class Transform { forward, inverse };
 
 /// Every row u becomes sum over i of u_i cos(pi k (i + 1/2) / nodes), or the other way round: by a Fourier transform as long as the row,
 /// of its even nodes and then its odd ones backwards (Makhoul 1980, "A fast cosine transform in one and two dimensions"). Two rows are the
 /// real and the imaginary part of one transform.
-void transform_rows(Grid& grid, Way way)
+void transform_rows(Grid& grid, Transform way)
 {
   const Eigen::Index count = grid.cols(), last = grid.rows() - 1;
   if (count == 1) return;
@@ -39,7 +39,7 @@ void transform_rows(Grid& grid, Way way)
       double* const a = grid.row(2 * static_cast<Eigen::Index>(pair)).data();
       double* const b = grid.row(std::min(2 * static_cast<Eigen::Index>(pair) + 1, last)).data(); // of an odd number the last one twice
       const auto at = [](std::vector<Complex>& of, Eigen::Index i) -> Complex& { return of[static_cast<std::size_t>(i)]; };
-      if (way == Way::there) {
+      if (way == Transform::forward) {
         for (Eigen::Index i = 0; i < count; ++i) at(values, i) = {a[place(i)], b[place(i)]};
         fft.fwd(changed.data(), values.data(), count);
         for (Eigen::Index k = 0; k < count; ++k) {
@@ -75,13 +75,13 @@ Poisson::Poisson(int columns, int rows, const glm::dvec2& spacing) : one_over_va
 Grid Poisson::solve(const Grid& f) const
 {
   Grid rows = f;
-  transform_rows(rows, Way::there);
+  transform_rows(rows, Transform::forward);
   Grid columns = rows.transpose();
-  transform_rows(columns, Way::there);
+  transform_rows(columns, Transform::forward);
   columns = columns.cwiseProduct(one_over_value_);
-  transform_rows(columns, Way::back);
+  transform_rows(columns, Transform::inverse);
   rows = columns.transpose();
-  transform_rows(rows, Way::back);
+  transform_rows(rows, Transform::inverse);
   return rows;
 }
 

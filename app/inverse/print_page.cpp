@@ -104,13 +104,13 @@ std::string receiver_page(const Layout& layout, std::size_t receiver, const job:
          "</svg>\n";
 }
 
-std::string plate_page(const glm::dvec2& plate, const std::vector<Placed>& bodies)
+std::string plate_page(const glm::dvec2& plate, const std::vector<PlatePart>& bodies)
 {
   const glm::dvec2 sheet = sheet_for(plate, lines_above), middle(sheet.x / 2, margin + lines_above * text_line + plate.y / 2);
   std::string page = begun(sheet, "The plate", fmt::format("{:.6g} x {:.6g} mm, seen along the light:", plate.x, plate.y),
                            "the flat fronts are on your side; the arrows are up.") +
                      outline(middle, plate, dashed_line);
-  for (const Placed& body : bodies) {
+  for (const PlatePart& body : bodies) {
     const glm::dvec2 at = middle + glm::dvec2(body.middle.x, -body.middle.y);
     page += outline(at, body.size, solid_line) + marks(at, body.size, solid_line) +
             text(at.x - body.size.x / 2 + 1, at.y + body.size.y / 2 - 1.5, body.name);

@@ -17,6 +17,6 @@ std::string object_page(const Layout& layout, const std::string& name);
 std::string receiver_page(const Layout& layout, std::size_t receiver, const job::Picture& cast, const std::string& name);
 
 /// The rectangles that bodies on a plate take, each with its name.
-std::string plate_page(const glm::dvec2& plate, const std::vector<Placed>& bodies);
+std::string plate_page(const glm::dvec2& plate, const std::vector<PlatePart>& bodies);
 
 } // namespace nephroid::inverse

@@ -20,7 +20,7 @@ double weight_of(const LightPart& part) { return part.xyz.x + part.xyz.y + part.
 
 struct Index {
   optics::DispersionCurve curve;
-  optics::Outside outside;
+  optics::Extrapolation outside;
   Place where;
   const char* remedy;
 

@@ -15,14 +15,14 @@ namespace nephroid::inverse {
 namespace {
 
 /// A layout and solid with an error.
-struct Wrong {
+struct PerturbedSolid {
   std::string_view what;
   double waves_mm = 0, turn_deg = 0, farther = 0;
 };
-constexpr std::array<Wrong, Tolerances::count> errors{
-    Wrong{.what = "heights off by 1 um", .waves_mm = 0.001}, Wrong{.what = "heights off by 5 um", .waves_mm = 0.005},
-    Wrong{.what = "heights off by 20 um", .waves_mm = 0.02}, Wrong{.what = "turned by 1 degree", .turn_deg = 1},
-    Wrong{.what = "receivers 1 % farther", .farther = 0.01}};
+constexpr std::array<PerturbedSolid, Tolerances::count> errors{
+    PerturbedSolid{.what = "heights off by 1 um", .waves_mm = 0.001}, PerturbedSolid{.what = "heights off by 5 um", .waves_mm = 0.005},
+    PerturbedSolid{.what = "heights off by 20 um", .waves_mm = 0.02}, PerturbedSolid{.what = "turned by 1 degree", .turn_deg = 1},
+    PerturbedSolid{.what = "receivers 1 % farther", .farther = 0.01}};
 
 /// About the x axis. Rays begin in front of what is turned towards them.
 void turn(double radians, Layout& layout, Solid& solid)
@@ -99,7 +99,7 @@ double Tolerances::fraction_done() const
 
 void Tolerances::begin()
 {
-  const Wrong& wrong = errors[rows_.size()];
+  const PerturbedSolid& wrong = errors[rows_.size()];
   changed_layout_ = layout_;
   changed_layout_.frames.clear();
   for (double& distance : changed_layout_.distances) distance *= 1 + wrong.farther;

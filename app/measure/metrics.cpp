@@ -178,11 +178,11 @@ Metrics QuickComparison::against(const Pixels& picture) const
   return metrics_of(std::accumulate(blocks.begin(), blocks.end(), Sums{}, [](Sums a, const Sums& b) { return a += b; }));
 }
 
-std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks, Which which)
+std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks, MetricSet which)
 {
   std::vector<Metrics> results;
   for (const Mask mask : masks) results.push_back(QuickComparison(reference, mask).against(picture));
-  if (which == Which::quick) return results;
+  if (which == MetricSet::quick) return results;
   const std::vector<std::optional<double>> similarities = iw_ssim_each(picture, reference, masks);
   const std::vector<float> flip = flip_map(picture, reference), hdr_flip = hdr_flip_map(picture, reference);
   for (std::size_t m = 0; m < masks.size(); ++m) {
@@ -193,7 +193,7 @@ std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference
   return results;
 }
 
-Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, Which which)
+Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask, MetricSet which)
 {
   return compare_each(picture, reference, std::span<const Mask>(&mask, 1), which).front();
 }

@@ -35,13 +35,13 @@ struct Metrics {
   std::size_t pixels = 0;         ///< that were counted
 };
 
-enum class Which { quick, full }; ///< metrics
+enum class MetricSet { quick, full }; ///< metrics
 
 /// FLIP's maps and IW-SSIM's are made of the whole pictures and averaged over the mask.
 /// Throws bad_input naming the picture: sizes that differ, NaN or infinity, a mask of another size or with no pixel that counts.
-Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, Which which = Which::full);
+Metrics compare(const Pixels& picture, const Pixels& reference, Mask mask = {}, MetricSet which = MetricSet::full);
 /// The same for several masks, one after the other, at little more than the cost of one.
-std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks, Which which = Which::full);
+std::vector<Metrics> compare_each(const Pixels& picture, const Pixels& reference, std::span<const Mask> masks, MetricSet which = MetricSet::full);
 
 struct MetricText {
   std::string label; ///< "mean CIELAB distance"

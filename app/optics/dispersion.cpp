@@ -32,20 +32,20 @@ Error refusal(const DispersionCurve& curve, const char* quantity, double nm, dou
 }
 
 /// A formula that gives no n at a wavelength: past its range it may be held instead, inside it its coefficients are wrong.
-Error no_index(const DispersionCurve& curve, double nm, Outside outside)
+Error no_index(const DispersionCurve& curve, double nm, Extrapolation outside)
 {
   const double low = curve.n->low_nm, high = curve.n->high_nm;
   const std::string what = fmt::format("the formula of {} gives no number at {} nm", curve.name, nm);
-  if (is_outside(nm, low, high) && outside != Outside::hold)
+  if (is_outside(nm, low, high) && outside != Extrapolation::hold)
     return bad_input(curve.source, what, fmt::format("its range is {:.6g}..{:.6g} nm", low, high),
                      "use outside \"hold\", or choose another file");
   return bad_input(curve.source, what + ": n^2 is negative or infinite there", "expected n^2 above 0",
                    "check the coefficients: does a resonance lie inside the range?");
 }
 
-double value_at(const Curve& curve, double nm, Outside outside)
+double value_at(const Curve& curve, double nm, Extrapolation outside)
 {
-  const bool hold = outside == Outside::hold || !curve.formula;
+  const bool hold = outside == Extrapolation::hold || !curve.formula;
   return curve.value(hold ? std::clamp(nm, curve.low_nm, curve.high_nm) : nm);
 }
 
@@ -158,14 +158,14 @@ std::array<double, 2> DispersionCurve::range_nm() const
   return main ? std::array{main->low_nm, main->high_nm} : std::array{0.0, 0.0};
 }
 
-IndexSample DispersionCurve::sample(double nm, Outside outside) const
+IndexSample DispersionCurve::sample(double nm, Extrapolation outside) const
 {
   if (!std::isfinite(nm) || !(nm > 0)) throw bad_input(source, fmt::format("the wavelength is {} nm", nm), "expected a number above 0");
   const auto [low, high] = range_nm();
   IndexSample result;
   result.nm = nm;
   result.extrapolated = is_outside(nm, low, high);
-  if (result.extrapolated && outside == Outside::refuse) throw refusal(*this, n ? "n" : "k", nm, low, high);
+  if (result.extrapolated && outside == Extrapolation::refuse) throw refusal(*this, n ? "n" : "k", nm, low, high);
   if (n) {
     const double value = value_at(*n, nm, outside);
     if (std::isfinite(value)) result.n = value;
@@ -174,10 +174,10 @@ IndexSample DispersionCurve::sample(double nm, Outside outside) const
   return result;
 }
 
-Spectrum sample_n(const DispersionCurve& curve, Outside outside)
+Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside)
 {
   if (!curve.n) throw bad_input(curve.source, curve.name + " has no index of refraction n, only k", {}, "choose another file");
-  if (const auto gap = curve.n->gap_nm; gap && outside == Outside::refuse)
+  if (const auto gap = curve.n->gap_nm; gap && outside == Extrapolation::refuse)
     throw bad_input(curve.source, fmt::format("{} has no n between {:.6g} and {:.6g} nm", curve.name, gap->front(), gap->back()),
                     "expected a table without gaps from 380 to 780 nm", "outside \"hold\" draws a straight line across");
   Spectrum result{};
@@ -191,13 +191,13 @@ Spectrum sample_n(const DispersionCurve& curve, Outside outside)
   return result;
 }
 
-Spectrum sample_k(const DispersionCurve& curve, Outside outside)
+Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside)
 {
   Spectrum result{};
   if (!curve.k) return result;
   for (int i = 0; i < wavelength_count; ++i) {
     const double nm = wavelength_nm(i);
-    if (outside == Outside::refuse && is_outside(nm, curve.k->low_nm, curve.k->high_nm))
+    if (outside == Extrapolation::refuse && is_outside(nm, curve.k->low_nm, curve.k->high_nm))
       throw refusal(curve, "k", nm, curve.k->low_nm, curve.k->high_nm);
     const double k = curve.k->value(std::clamp(nm, curve.k->low_nm, curve.k->high_nm));
     result[static_cast<std::size_t>(i)] = std::max(0.0, k);
@@ -212,7 +212,7 @@ Curve curve_of(LinearTable table)
   return {std::move(table), low, high, false, gap};
 }
 
-std::string outside_note(const DispersionCurve& curve, Outside outside)
+std::string outside_note(const DispersionCurve& curve, Extrapolation outside)
 {
   if (!curve.n) return {};
   const double low = curve.n->low_nm, high = curve.n->high_nm;
@@ -221,7 +221,7 @@ std::string outside_note(const DispersionCurve& curve, Outside outside)
   if (is_outside(last_nm, low, high))
     where += fmt::format("{}above {:.6g} nm", where.empty() ? "" : " and ", std::max(high, double{first_nm}));
   std::vector<std::string> notes;
-  const bool held = outside == Outside::hold || !curve.n->formula;
+  const bool held = outside == Extrapolation::hold || !curve.n->formula;
   if (!where.empty())
     notes.push_back(fmt::format("n is {} {} (data: {:.6g}..{:.6g} nm)", held ? "held" : "extrapolated", where, low, high));
   if (const auto gap = curve.n->gap_nm)
@@ -266,12 +266,12 @@ DispersionCurve cauchy(std::span<const double> coefficients, double low_nm, doub
 
 DispersionCurve tabulated(std::span<const std::array<double, 2>> nm_n)
 {
-  return index_only("table", curve_of(LinearTable(sorted_rows(nm_n, Repeats::refuse, "table"))));
+  return index_only("table", curve_of(LinearTable(sorted_rows(nm_n, Duplicates::refuse, "table"))));
 }
 
 DispersionCurve control_points(std::span<const std::array<double, 2>> nm_n)
 {
-  std::vector<Row> rows = sorted_rows(nm_n, Repeats::refuse, "points");
+  std::vector<Row> rows = sorted_rows(nm_n, Duplicates::refuse, "points");
   const double low = rows.front()[0], high = rows.back()[0];
   return index_only("points", {MonotoneCubic(std::move(rows)), low, high, false});
 }

@@ -15,7 +15,7 @@ namespace nephroid::optics {
 
 /// What to answer outside the data's own range. automatic: extrapolate a formula, hold a table. hold: the value at the nearest end.
 /// extrapolate: a formula goes on; a table has no law to go on by, so it holds. refuse: an error.
-enum class Outside { automatic, hold, extrapolate, refuse };
+enum class Extrapolation { automatic, hold, extrapolate, refuse };
 
 struct IndexSample {
   double nm = 0;
@@ -39,18 +39,18 @@ struct DispersionCurve {
 
   /// The range of n, or of k where there is no n.
   std::array<double, 2> range_nm() const;
-  /// nm: finite and > 0. Throws bad_input with Outside::refuse where nm is outside the range.
-  IndexSample sample(double nm, Outside outside = Outside::automatic) const;
+  /// nm: finite and > 0. Throws bad_input with Extrapolation::refuse where nm is outside the range.
+  IndexSample sample(double nm, Extrapolation outside = Extrapolation::automatic) const;
 };
 
 /// n on the 401 wavelengths. Throws bad_input naming the curve and the first wavelength where n is missing, not finite or <= 0, and,
-/// with Outside::refuse, for a gap.
-Spectrum sample_n(const DispersionCurve& curve, Outside outside);
+/// with Extrapolation::refuse, for a gap.
+Spectrum sample_n(const DispersionCurve& curve, Extrapolation outside);
 /// k on the 401 wavelengths (0 where the data has none or a negative value; ends held unless refused).
-Spectrum sample_k(const DispersionCurve& curve, Outside outside);
+Spectrum sample_k(const DispersionCurve& curve, Extrapolation outside);
 /// What a run must say when its 380..780 nm reach beyond the data of n, e.g. "N-SF66: n is extrapolated below 390 nm (data:
 /// 390..2500 nm)", or into a gap of it; empty where they do not.
-std::string outside_note(const DispersionCurve& curve, Outside outside);
+std::string outside_note(const DispersionCurve& curve, Extrapolation outside);
 
 /// The same n > 0 at every wavelength.
 DispersionCurve constant_index(double n);

@@ -115,7 +115,7 @@ Curve table_curve(const std::vector<std::vector<double>>& rows, std::size_t colu
 {
   std::vector<Row> pairs;
   for (const auto& row : rows) pairs.push_back({row[0] * 1000, row[column]});
-  return curve_of(LinearTable(sorted_rows(pairs, Repeats::mean, where)));
+  return curve_of(LinearTable(sorted_rows(pairs, Duplicates::mean, where)));
 }
 
 /// The first entry that gives n and the first that gives k count (one file has n by a formula and again in a table with k).

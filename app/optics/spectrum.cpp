@@ -94,7 +94,7 @@ Spectrum blackbody(double temperature_k)
 Spectrum light_table(std::span<const std::array<double, 2>> nm_power)
 {
   require_no_negative_power(nm_power);
-  return normalised(sampled(LinearTable(sorted_rows(nm_power, Repeats::refuse, {})), false), "the light's table");
+  return normalised(sampled(LinearTable(sorted_rows(nm_power, Duplicates::refuse, {})), false), "the light's table");
 }
 
 Spectrum light_lines(std::span<const std::array<double, 2>> nm_power)
@@ -121,7 +121,7 @@ Spectrum reflectance_table(std::span<const std::array<double, 2>> nm_reflectance
 {
   for (const auto& [nm, value] : nm_reflectance)
     if (!(value >= 0 && value <= 1)) throw bad_input({}, fmt::format("the reflectance at {} nm is {}", nm, value), "expected 0 to 1");
-  return sampled(LinearTable(sorted_rows(nm_reflectance, Repeats::refuse, {})), true);
+  return sampled(LinearTable(sorted_rows(nm_reflectance, Duplicates::refuse, {})), true);
 }
 
 Spectrum constant_spectrum(double value)

@@ -48,7 +48,7 @@ void check_row(const Row& row, const Place& where)
 
 } // namespace
 
-std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const Place& where)
+std::vector<Row> sorted_rows(std::span<const Row> rows, Duplicates repeats, const Place& where)
 {
   if (rows.empty()) throw bad_input(where, "the table is empty", "expected at least one row of (wavelength in nm, value)");
   for (const Row& row : rows) check_row(row, where);
@@ -59,7 +59,7 @@ std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const P
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
     double sum = 0;
     for (end = begin; end < sorted.size() && sorted[end][0] == sorted[begin][0]; ++end) {
-      if (repeats == Repeats::refuse && sorted[end][1] != sorted[begin][1])
+      if (repeats == Duplicates::refuse && sorted[end][1] != sorted[begin][1])
         throw bad_input(where,
                         fmt::format("{} nm is given twice, with the values {} and {}", sorted[end][0], sorted[begin][1], sorted[end][1]),
                         "expected each wavelength once");

@@ -17,11 +17,11 @@ namespace nephroid::optics {
 using Row = std::array<double, 2>;
 
 /// What to do with a wavelength that is given twice with different values.
-enum class Repeats { refuse, mean };
+enum class Duplicates { refuse, mean };
 
 /// The rows by rising wavelength, each wavelength once. Throws bad_input at `where` for no rows, a number that is not finite,
 /// a wavelength that is not positive, or a repeat that is refused.
-std::vector<Row> sorted_rows(std::span<const Row> rows, Repeats repeats, const Place& where);
+std::vector<Row> sorted_rows(std::span<const Row> rows, Duplicates repeats, const Place& where);
 
 /// The widest step between neighbouring rows that reaches into low..high, where it is a hole in the data and not their usual
 /// step: at least 20 nm of it lie there, and it is five times the median of the steps there, which are four or more. rows: sorted.

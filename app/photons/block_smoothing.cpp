@@ -16,7 +16,7 @@ namespace {
 constexpr double most_needed = 24;
 
 /// The pixels that a kernel of single ones would need, in the mean of all light. layer: with a value for each block.
-double pixels_needed(const Blocks& blocks, const Noisy& layer)
+double pixels_needed(const Blocks& blocks, const LayerEstimate& layer)
 {
   const std::vector<double> light = light_of(layer.rgb), portion = portions(light, layer.draw, blocks.across(), blocks.down());
   const double light_sum = std::reduce(light.begin(), light.end());
@@ -26,7 +26,7 @@ double pixels_needed(const Blocks& blocks, const Noisy& layer)
 
 /// Adds to the draw of a layer in blocks what these hide of the picture: about as much as blocks twice as large hide of it, and no more
 /// than there is.
-void add_hidden(const Blocks& blocks, Noisy& layer)
+void add_hidden(const Blocks& blocks, LayerEstimate& layer)
 {
   const Blocks pairs{blocks.across(), blocks.down(), 2};
   const std::vector<float> larger = between_blocks(pairs, mean_of_blocks(pairs, layer.rgb));
@@ -38,12 +38,12 @@ void add_hidden(const Blocks& blocks, Noisy& layer)
 
 } // namespace
 
-Noisy means(const Blocks& blocks, const Noisy& layer)
+LayerEstimate means(const Blocks& blocks, const LayerEstimate& layer)
 {
   return {mean_of_blocks(blocks, layer.rgb), layer.draw.empty() ? layer.draw : mean_of_blocks(blocks, layer.draw)};
 }
 
-Noisy between(const Blocks& blocks, const Noisy& layer)
+LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer)
 {
   return {between_blocks(blocks, layer.rgb), layer.draw.empty() ? layer.draw : between_blocks(blocks, layer.draw)};
 }
@@ -56,7 +56,7 @@ BlockSmoothing::BlockSmoothing(const scene::Scene& scene, const scene::Bvh& bvh,
     levels_.push_back({blocks, Smoothing(view, blocks.across(), blocks.down(), spread)});
 }
 
-Noisy BlockSmoothing::pixels_of(const Blocks& blocks, Noisy layer)
+LayerEstimate BlockSmoothing::pixels_of(const Blocks& blocks, LayerEstimate layer)
 {
   const auto level = std::ranges::find(levels_, blocks.edge, [](const Level& of) { return of.blocks.edge; });
   level->smoothing.spread(layer.rgb, layer.draw);
@@ -64,7 +64,7 @@ Noisy BlockSmoothing::pixels_of(const Blocks& blocks, Noisy layer)
   return between(blocks, layer);
 }
 
-void BlockSmoothing::spread(Noisy& caustics, const Smoothing::Known& known)
+void BlockSmoothing::spread(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known)
 {
   std::size_t chosen = levels_.size() - 1;
   if (first_.edge > 1) {
@@ -75,14 +75,14 @@ void BlockSmoothing::spread(Noisy& caustics, const Smoothing::Known& known)
     caustics = pixels_of(levels_[chosen].blocks, means(levels_[chosen].blocks, caustics));
     return;
   }
-  const Noisy& plain = caustics;
+  const LayerEstimate& plain = caustics;
   const std::vector<double> light = light_of(plain.rgb), portion = portions(light, plain.draw, first_.width, first_.height);
-  Noisy mixed = spread_in(levels_[chosen], plain, known);
-  const auto mix_in = [&](const Noisy& estimate) {
+  LayerEstimate mixed = spread_in(levels_[chosen], plain, known);
+  const auto mix_in = [&](const LayerEstimate& estimate) {
     mix(plain.rgb, plain.draw, {estimate.rgb, estimate.draw}, light, first_.width, first_.height, mixed.rgb, mixed.draw);
   };
   for (std::size_t finer = chosen + 1; finer < levels_.size(); ++finer) {
-    Noisy fine = spread_in(levels_[finer], plain, known);
+    LayerEstimate fine = spread_in(levels_[finer], plain, known);
     // Where few portions fell, or none, their noise cannot be told: there nothing speaks for the finer estimate.
     constexpr double least_portions = 16, around = 15 * 15; // pixels
     const std::vector<double> coarse_light = light_of(mixed.rgb);
@@ -96,13 +96,13 @@ void BlockSmoothing::spread(Noisy& caustics, const Smoothing::Known& known)
   caustics = std::move(mixed);
 }
 
-Noisy BlockSmoothing::spread_in(Level& level, Noisy plain, const Smoothing::Known& known)
+LayerEstimate BlockSmoothing::spread_in(Level& level, LayerEstimate plain, const Smoothing::BiasedEstimate& known)
 {
   if (level.blocks.edge == 1) {
     level.smoothing.spread(plain.rgb, plain.draw, known);
     return plain;
   }
-  Noisy blocks = means(level.blocks, plain);
+  LayerEstimate blocks = means(level.blocks, plain);
   level.smoothing.spread(blocks.rgb, blocks.draw);
   return between(level.blocks, blocks);
 }

@@ -10,13 +10,13 @@
 namespace nephroid::photons {
 
 /// A layer with a draw of its error (job::Picture::error_draw), which is empty where it is not known; both of [pixel][3].
-struct Noisy {
+struct LayerEstimate {
   std::vector<float> rgb, draw;
 };
 
-Noisy means(const Blocks& blocks, const Noisy& layer);
+LayerEstimate means(const Blocks& blocks, const LayerEstimate& layer);
 /// layer: with a value for each block. With one for each pixel, as between_blocks().
-Noisy between(const Blocks& blocks, const Noisy& layer);
+LayerEstimate between(const Blocks& blocks, const LayerEstimate& layer);
 
 class BlockSmoothing {
 public:
@@ -26,17 +26,17 @@ public:
   /// From pixel to pixel.
   Smoothing& pixels() { return levels_.back().smoothing; }
   /// blocks: those of a preview, whose `layer` has a value for each. The layer of pixels, smoothed.
-  Noisy pixels_of(const Blocks& blocks, Noisy layer);
+  LayerEstimate pixels_of(const Blocks& blocks, LayerEstimate layer);
   /// Spreads caustics in blocks so large that their noise needs no wide kernels. Then mixes in what smaller and larger blocks make of them,
   /// where the halves say that it is better (mixture.h). known: for single pixels.
-  void spread(Noisy& caustics, const Smoothing::Known& known);
+  void spread(LayerEstimate& caustics, const Smoothing::BiasedEstimate& known);
 
 private:
   struct Level {
     Blocks blocks;
     Smoothing smoothing;
   };
-  static Noisy spread_in(Level& level, Noisy plain, const Smoothing::Known& known);
+  static LayerEstimate spread_in(Level& level, LayerEstimate plain, const Smoothing::BiasedEstimate& known);
 
   std::vector<Level> levels_; ///< from twice first_preview_edge to single pixels, each with half the edge of that before
   Blocks first_;

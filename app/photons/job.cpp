@@ -24,7 +24,7 @@
 namespace nephroid::photons {
 namespace {
 
-/// Smoothing::Known::noise. Direct light has shadows that are broader than what is fine in a caustic.
+/// Smoothing::BiasedEstimate::noise. Direct light has shadows that are broader than what is fine in a caustic.
 constexpr double caustic_noise = 0.05, direct_noise = 0.01;
 
 using Clock = std::chrono::steady_clock;
@@ -240,7 +240,7 @@ private:
       if (s.caustics()) photons += s.stage->photons_per_pass();
     }
     if (photons == 0) return;
-    Noisy splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
+    LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
     if (smoothing_) smoothing_->spread(splatted, {});
     tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
     for (const job::Layer& layer : picture.layers)
@@ -300,29 +300,29 @@ private:
   }
 
   /// Of a preview: as a stage has seen it, smoothed, of [pixel][3].
-  Noisy preview_layer(std::size_t stage)
+  LayerEstimate preview_layer(std::size_t stage)
   {
     const Blocks& first = world_.preview.blocks;
     job::Picture picture = black(first);
     stages_[stage].stage->develop_preview(picture);
     if (picture.layers.empty()) return {};
-    Noisy blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, pixels;
+    LayerEstimate blocks{std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, pixels;
     if (!smoothing_) return between(first, blocks);
     timed([&] { pixels = smoothing_->pixels_of(first, std::move(blocks)); });
     return pixels;
   }
 
   /// The layer of a stage of no caustics.
-  Noisy seen(std::size_t stage)
+  LayerEstimate seen(std::size_t stage)
   {
     Stage& of = *stages_[stage].stage;
     const bool whole = at_.pass > 0 || stage < at_.stage;
     const bool wants_preview = previews_ > 0 && !has_halves(stage) && (!whole || smoothing_);
-    Noisy first = wants_preview ? preview_layer(stage) : Noisy();
+    LayerEstimate first = wants_preview ? preview_layer(stage) : LayerEstimate();
     if (!first.rgb.empty() && !whole) return first;
     job::Picture picture = black();
     of.develop(at_.pass, stage < at_.stage, picture);
-    Noisy layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+    LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
     if (!first.rgb.empty()) { // a single sample of each pixel: all there is to see of a wall, and little of glass
       for (std::size_t i = 0; i < layer.rgb.size(); ++i)
         if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = first.rgb[i];
@@ -336,10 +336,10 @@ private:
   }
 
   /// The layer of all stages of caustics.
-  Noisy caustics()
+  LayerEstimate caustics()
   {
     const auto is_shown = [&](std::size_t s) { return stages_[s].caustics() && (!smoothing_ || has_halves(s)); };
-    Noisy first; // of photon maps, which come after all photons of a pass; until then glass shows what is known otherwise
+    LayerEstimate first; // of photon maps, which come after all photons of a pass; until then glass shows what is known otherwise
     bool lacks_maps = false;
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (stages_[s].caustics() && !is_shown(s)) {
@@ -350,7 +350,7 @@ private:
     tracing::layer_of(picture, "caustic");
     for (std::size_t s = 0; s < stages_.size(); ++s)
       if (is_shown(s)) stages_[s].stage->develop(at_.pass, s < at_.stage, picture);
-    Noisy layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+    LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
     for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
       if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
     if (smoothing_ && !layer.draw.empty()) timed([&] { smoothing_->spread(layer, {estimate_, caustic_noise}); });
@@ -361,7 +361,7 @@ private:
 
   Blocks blocks_of(int edge) const { return {world_.tables.camera.width, world_.tables.camera.height, edge}; }
 
-  static void add(const char* name, Noisy layer, job::Picture& picture)
+  static void add(const char* name, LayerEstimate layer, job::Picture& picture)
   {
     std::ranges::transform(picture.rgb, layer.rgb, picture.rgb.begin(), std::plus());
     if (layer.draw.empty()) picture.error_draw.clear();

@@ -31,22 +31,22 @@ std::int16_t whole_rate(double rate)
 }
 
 /// Of a sample of a pixel, or the mean of several.
-struct Sampled {
+struct SampleMoments {
   double variance = 0, light_squared = 0; ///< sums of R, G and B
 };
 
 /// Sums over the pixels around one, without itself, of those that show glass as it does or none as it does: the others' paths are of
 /// another kind.
-class Around {
+class Neighbourhood {
 public:
-  Around(const DeviceWorld& world, std::span<const Sampled> pixels)
+  Neighbourhood(const DeviceWorld& world, std::span<const SampleMoments> pixels)
       : width_(world.tables.camera.width), height_(world.tables.camera.height), glass_(world.pixels.may_show_glass), pixels_(pixels)
   {
   }
-  Sampled mean(std::size_t pixel, int reach) const
+  SampleMoments mean(std::size_t pixel, int reach) const
   {
     const int x = static_cast<int>(pixel) % width_, y = static_cast<int>(pixel) / width_;
-    Sampled sum;
+    SampleMoments sum;
     int count = 0;
     for (int row = std::max(y - reach, 0); row <= std::min(y + reach, height_ - 1); ++row)
       for (int column = std::max(x - reach, 0); column <= std::min(x + reach, width_ - 1); ++column) {
@@ -62,7 +62,7 @@ public:
 private:
   int width_, height_;
   const std::vector<bool>& glass_;
-  std::span<const Sampled> pixels_;
+  std::span<const SampleMoments> pixels_;
 };
 
 } // namespace
@@ -100,21 +100,21 @@ void SampledPixels::take_next(std::int64_t pass, double amount)
 void SampledPixels::share_work(const Noise& noise)
 {
   passes_ = preset::max_passes; // for what may now have less than a sample a pass
-  std::vector<Sampled> pixels(counts_.size());
+  std::vector<SampleMoments> pixels(counts_.size());
   for (std::size_t i = 0; i < 3 * pixels.size(); ++i) {
     const double draw = noise.draw[i], light = noise.light[i];
     pixels[i / 3].variance += draw * draw * (counts_[i / 3][0] + counts_[i / 3][1]);
     pixels[i / 3].light_squared += light * light;
   }
-  const Around around(world_, pixels);
+  const Neighbourhood around(world_, pixels);
   for_ranges(pixels.size(), 1 << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       // Through glass few samples of many bring most of the light, so it takes many pixels to know the variance. Elsewhere edges are
       // narrow.
       const bool glass = world_.pixels.may_show_glass[i];
-      Sampled sampled = around.mean(i, 3);
+      SampleMoments sampled = around.mean(i, 3);
       if (!glass) {
-        const Sampled near = around.mean(i, 1);
+        const SampleMoments near = around.mean(i, 1);
         sampled = {std::max(near.variance, sampled.variance / 8), near.light_squared};
       }
       const double had = counts_[i][0] + counts_[i][1];

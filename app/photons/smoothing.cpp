@@ -176,11 +176,11 @@ struct PixelSight {
 };
 
 /// Which pixels light may be spread over.
-struct Seeing {
+struct SpreadDomain {
   int width, height;
   std::span<const Smoothing::Level> level; ///< [pixel]
   std::vector<std::size_t> steps = {};     ///< [of the pixels within reach]: to be added to a pixel's number, modulo 2^64
-  Seeing(int columns, int rows, std::span<const Smoothing::Level> levels) : width(columns), height(rows), level(levels)
+  SpreadDomain(int columns, int rows, std::span<const Smoothing::Level> levels) : width(columns), height(rows), level(levels)
   {
     for (const Offset& o : within_reach().offsets) steps.push_back(static_cast<std::size_t>(std::ptrdiff_t{o.y} * width + o.x));
   }
@@ -203,7 +203,7 @@ bool are_level(const PixelSight& a, const PixelSight& b)
 
 /// Calls work(j) for each pixel j that pixel i may give light to, of those with the numbers begin..end-1 within reach.
 template <class Work>
-void for_level(const Seeing& at, std::size_t i, std::uint32_t begin, std::uint32_t end, const Work& work)
+void for_level(const SpreadDomain& at, std::size_t i, std::uint32_t begin, std::uint32_t end, const Work& work)
 {
   constexpr std::uint32_t bits = 64;
   for (std::uint32_t word = begin / bits; word * bits < end; ++word) {
@@ -215,7 +215,7 @@ void for_level(const Seeing& at, std::size_t i, std::uint32_t begin, std::uint32
 }
 
 /// Those that hold `wanted` of `light`, or reach as far as any may; [pixel].
-std::vector<Kernel> find_kernels(const Seeing& at, std::span<const double> light, std::span<const double> wanted,
+std::vector<Kernel> find_kernels(const SpreadDomain& at, std::span<const double> light, std::span<const double> wanted,
                                  std::span<const double> favour)
 {
   std::vector<Kernel> kernels(light.size());
@@ -240,7 +240,7 @@ std::vector<Kernel> find_kernels(const Seeing& at, std::span<const double> light
 
 /// Calls give(i, j, part) for the part of its light that each pixel i which is `needed(i)` gives to j. On every core, each with its own j.
 template <class Needed, class Give>
-void give_parts(const Seeing& at, std::span<const Kernel> kernels, std::span<const double> favour, const Needed& needed, const Give& give)
+void give_parts(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour, const Needed& needed, const Give& give)
 {
   // A block of rows takes what all pixels within reach of it give, in their order: the same bits on any number of cores.
   for_ranges(static_cast<std::size_t>(at.height), block_rows, [&](std::size_t, Range rows) {
@@ -262,7 +262,7 @@ void give_parts(const Seeing& at, std::span<const Kernel> kernels, std::span<con
 }
 
 /// Of what each pixel of a picture has, `share` is spread by the kernels; the rest stays.
-void spread_shares(const Seeing& at, std::span<const Kernel> kernels, std::span<const double> favour, std::span<const float> share,
+void spread_shares(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> favour, std::span<const float> share,
                    std::vector<float>& rgb)
 {
   using Colour = std::array<float, 4>; // four numbers are added as fast as one
@@ -280,7 +280,7 @@ void spread_shares(const Seeing& at, std::span<const Kernel> kernels, std::span<
 }
 
 /// Makes of each of two pictures means by the kernels: what a pixel gets, over how much of the others gives to it.
-void to_means(const Seeing& at, std::span<const Kernel> kernels, std::span<const double> even, std::vector<float>& first,
+void to_means(const SpreadDomain& at, std::span<const Kernel> kernels, std::span<const double> even, std::vector<float>& first,
               std::vector<float>& second)
 {
   using Two = std::array<float, 8>; // three of each picture, and how much gives
@@ -374,7 +374,7 @@ std::uint64_t Smoothing::bytes(const scene::Scene& scene, const scene::Bvh& bvh)
          (sizeof(PixelSurfaces) + sizeof(PixelSight) + sizeof(Level) + pulled_apart) * scene.camera.pixels();
 }
 
-void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const Known& known)
+void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known)
 {
   if (error_draw.empty()) return;
   find_surfaces();
@@ -382,7 +382,7 @@ void Smoothing::spread(std::vector<float>& rgb, std::vector<float>& error_draw, 
   std::vector<double> wanted = portions(light, error_draw, width_, height_);
   for (double& portion : wanted) portion /= noise * noise; // of n portions the noise is 1 / sqrt(n)
 
-  const Seeing at{width_, height_, level_};
+  const SpreadDomain at{width_, height_, level_};
   // Of even light a pixel at the border of a part takes less than it gives, and one a kernel away from there more; one step of Sinkhorn and
   // Knopp (1967) evens that out, and still every pixel gives away what it has.
   const std::vector<double> even(level_.size(), 1);

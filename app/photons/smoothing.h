@@ -32,7 +32,7 @@ public:
   static constexpr double noise = 0.25;
 
   /// The same light as somebody knows it without noise, but not quite right.
-  struct Known {
+  struct BiasedEstimate {
     std::span<const float> rgb; ///< [pixel][3]; empty: nobody does
     double noise;               ///< what is allowed of noise in what is known with what it lacks, as Smoothing::noise
   };
@@ -60,7 +60,7 @@ public:
   /// no light when kernels are chosen. Nothing changes where the draw is empty.
   /// known: then each place gets the mixture that the halves say is best (mixture.h) of what is spread, of what is known, and of that with
   /// what it lacks, which is spread until its noise is known.noise.
-  void spread(std::vector<float>& rgb, std::vector<float>& error_draw, const Known& known = {});
+  void spread(std::vector<float>& rgb, std::vector<float>& error_draw, const BiasedEstimate& known = {});
 
   /// Of the pixels within reach of one, nearest first, those that its light may be spread over: a bit each, from the lowest of the first.
   using Level = std::array<std::uint64_t, 2>;

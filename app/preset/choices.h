@@ -7,10 +7,10 @@
 namespace nephroid::preset {
 
 template <>
-inline constexpr Choice<Outside> choices<Outside>[] = {{Outside::automatic, "automatic", "Extrapolate a formula, hold a table."},
-                                                       {Outside::hold, "hold", "The value at the nearer end of the range."},
-                                                       {Outside::extrapolate, "extrapolate", "What the formula gives."},
-                                                       {Outside::refuse, "refuse", "An error."}};
+inline constexpr Choice<Extrapolation> choices<Extrapolation>[] = {{Extrapolation::automatic, "automatic", "Extrapolate a formula, hold a table."},
+                                                       {Extrapolation::hold, "hold", "The value at the nearer end of the range."},
+                                                       {Extrapolation::extrapolate, "extrapolate", "What the formula gives."},
+                                                       {Extrapolation::refuse, "refuse", "An error."}};
 
 template <>
 inline constexpr Choice<Dispersion::Type> choices<Dispersion::Type>[] = {

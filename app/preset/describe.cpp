@@ -20,7 +20,7 @@ void describe(Fields& v, Stop& s)
 void describe(Fields& v, Reference& r)
 {
   v.about("Reference", "What a picture is measured against.");
-  v.shorthand(Bare::text, Reference::Type::file, "file");
+  v.shorthand(BareValue::text, Reference::Type::file, "file");
   using Type = Reference::Type;
   v.type("type", "Where the reference comes from.", r.type);
   if (r.type == Type::file) return v.field("file", "A picture of the run's size.", r.file, {.text = Text::file, .required = true});

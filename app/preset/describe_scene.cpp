@@ -9,8 +9,8 @@ namespace nephroid::preset {
 void describe(Fields& v, Dispersion& d)
 {
   v.about("Dispersion", "Index of refraction over wavelength.");
-  v.shorthand(Bare::number, Dispersion::Type::constant, "n");
-  v.shorthand(Bare::text, Dispersion::Type::file, "file");
+  v.shorthand(BareValue::number, Dispersion::Type::constant, "n");
+  v.shorthand(BareValue::text, Dispersion::Type::file, "file");
   using Type = Dispersion::Type;
   v.type("type", "Where n comes from.", d.type);
   const Column nm{"wavelength", "nm", wavelength_bounds}, n{"n", "", index_bounds};
@@ -35,7 +35,7 @@ void describe(Fields& v, Dispersion& d)
 void describe(Fields& v, LightSpectrum& s)
 {
   v.about("LightSpectrum", "How a light's power is spread over wavelength.");
-  v.shorthand(Bare::text, LightSpectrum::Type::illuminant, "illuminant");
+  v.shorthand(BareValue::text, LightSpectrum::Type::illuminant, "illuminant");
   using Type = LightSpectrum::Type;
   v.type("type", "Where the spectrum comes from.", s.type);
   const Column nm{"wavelength", "nm", wavelength_bounds}, power{"relative power", "", power_bounds};
@@ -53,8 +53,8 @@ void describe(Fields& v, LightSpectrum& s)
 void describe(Fields& v, Reflectance& r)
 {
   v.about("Reflectance", "The part of the light that is reflected, over wavelength.");
-  v.shorthand(Bare::number, Reflectance::Type::constant, "value");
-  v.shorthand(Bare::text, Reflectance::Type::patch, "patch");
+  v.shorthand(BareValue::number, Reflectance::Type::constant, "value");
+  v.shorthand(BareValue::text, Reflectance::Type::patch, "patch");
   using Type = Reflectance::Type;
   v.type("type", "Where the reflectance comes from.", r.type);
   if (r.type == Type::constant) v.field("value", "Reflectance.", r.value, {.bounds = within(0, 1), .required = true});
@@ -158,7 +158,7 @@ void describe(Fields& v, Camera& c)
 void describe(Fields& v, Environment& e)
 {
   v.about("Environment", "What is behind everything, infinitely far.");
-  v.shorthand(Bare::text, Environment::Type::file, "file");
+  v.shorthand(BareValue::text, Environment::Type::file, "file");
   v.type("type", "Where the surroundings come from.", e.type);
   if (e.type == Environment::Type::file)
     v.field("file", "A latitude-longitude picture.", e.file, {.text = Text::file, .required = true});

@@ -16,7 +16,7 @@ namespace nephroid::preset {
 using Vec3 = std::array<double, 3>;
 
 /// What n(wavelength) does outside the data's own range. automatic: extrapolate a formula, hold a table.
-enum class Outside { automatic, hold, extrapolate, refuse };
+enum class Extrapolation { automatic, hold, extrapolate, refuse };
 
 /// Index of refraction. JSON: a number (constant n), a string (a refractiveindex.info file), or an object with "type".
 struct Dispersion {
@@ -27,7 +27,7 @@ struct Dispersion {
   std::vector<double> b, c_um2;             ///< sellmeier: n^2 = 1 + sum b l^2 / (l^2 - c), l in micrometres, c in square micrometres
   std::vector<double> coefficients;         ///< cauchy: n = c0 + c1 / l^2 + c2 / l^4 ..., l in micrometres
   std::vector<std::array<double, 2>> table; ///< table: (nm, n) linear; points: control points (nm, n), monotone cubic
-  Outside outside = Outside::automatic;
+  Extrapolation outside = Extrapolation::automatic;
   bool operator==(const Dispersion&) const = default;
 };
 

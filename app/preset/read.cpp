@@ -91,7 +91,7 @@ private:
   bool read_shorthand(const Json& json, const std::string& pointer, const Value& object) const
   {
     for (const Shorthand& shorthand : object.type().shorthands) {
-      if (shorthand.bare == Bare::number ? !json.is_number() : !json.is_string()) continue;
+      if (shorthand.bare == BareValue::number ? !json.is_number() : !json.is_string()) continue;
       choose(object.members().front().value, shorthand.type);
       for (const Member& member : object.members())
         if (member.field.name == shorthand.field) read_value(json, pointer, member.field, member.value);

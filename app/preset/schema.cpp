@@ -14,7 +14,7 @@ namespace {
 
 /// Presets with a parent may leave out whatever they inherit, but lists replace the parent's lists, so that inside a list
 /// everything that is required must be there.
-enum class Presence { whole, part };
+enum class Requirement { whole, part };
 
 Json or_null(const Json& schema) { return {{"anyOf", {schema, {{"type", "null"}}}}}; }
 
@@ -84,7 +84,7 @@ struct Properties {
 /// Collects the schemas of all structs, each made at its first use.
 class Definitions {
 public:
-  Properties properties(const Value& object, Presence presence)
+  Properties properties(const Value& object, Requirement presence)
   {
     Properties properties;
     for (const Member& member : object.members()) {
@@ -101,7 +101,7 @@ public:
   Json all = Json::object();
 
 private:
-  Json schema_of(const Member& member, Presence presence)
+  Json schema_of(const Member& member, Requirement presence)
   {
     if (member.role == Role::type) return {{"const", member.value.word().name}};
     Json schema = schema_of(member.field, member.value.type(), presence);
@@ -112,7 +112,7 @@ private:
     return schema;
   }
 
-  Json schema_of(const Field& f, const ValueType& type, Presence presence)
+  Json schema_of(const Field& f, const ValueType& type, Requirement presence)
   {
     const Kind kind = type.kind;
     if (kind == Kind::boolean) return {{"type", "boolean"}};
@@ -126,15 +126,15 @@ private:
       return f.bare_number ? Json{{"anyOf", {list, item}}} : list;
     }
     if (kind == Kind::table) return list_schema(row_schema(f.columns), f.count);
-    if (kind == Kind::list) return list_schema(reference(*type.item, Presence::whole), f.count);
+    if (kind == Kind::list) return list_schema(reference(*type.item, Requirement::whole), f.count);
     if (kind == Kind::map)
       return {{"type", "object"}, {"additionalProperties", or_null(reference(*type.item, presence))}, {"maxProperties", f.count.high}};
     return kind == Kind::optional ? or_null(schema_of(f, *type.item, presence)) : reference(type, presence);
   }
 
-  Json reference(const ValueType& type, Presence presence)
+  Json reference(const ValueType& type, Requirement presence)
   {
-    const std::string name = std::string(type.name) + (presence == Presence::part ? "" : "Item");
+    const std::string name = std::string(type.name) + (presence == Requirement::part ? "" : "Item");
     if (!all.contains(name)) {
       Json schema = definition(type, presence);
       all[name] = std::move(schema);
@@ -142,19 +142,19 @@ private:
     return {{"$ref", "#/$defs/" + name}};
   }
 
-  Json definition(const ValueType& type, Presence presence)
+  Json definition(const ValueType& type, Requirement presence)
   {
     const auto by_default = type.make();
     const Value object(by_default.get(), type);
     if (object.members().front().role == Role::type) return alternatives(object, presence);
     const Properties own = properties(object, presence);
     Json schema = own.schema(std::string(type.name), type.sentence);
-    if (presence == Presence::whole && !own.required.empty()) schema["required"] = own.required;
+    if (presence == Requirement::whole && !own.required.empty()) schema["required"] = own.required;
     return schema;
   }
 
   /// The struct's types one by one, then its shorthands; as a part also any of their fields without a type.
-  Json alternatives(const Value& object, Presence presence)
+  Json alternatives(const Value& object, Requirement presence)
   {
     Json schemas = Json::array(), bare = Json::array(), any_field = Json::object();
     const std::vector<Word> words = object.members().front().value.type().words;
@@ -163,7 +163,7 @@ private:
       object.members().front().value.choose(i);
       const Properties own = properties(object, presence);
       Json schema = own.schema(std::string(words[i].name), words[i].sentence);
-      schema["required"] = presence == Presence::whole ? own.required : Json::array({key});
+      schema["required"] = presence == Requirement::whole ? own.required : Json::array({key});
       schemas.push_back(std::move(schema));
       for (const auto& [name, property] : own.properties.items())
         if (name != key) { // fields of one name and several meanings: anything goes, the program knows
@@ -174,7 +174,7 @@ private:
         if (shorthand.type == words[i].name) bare.push_back(own.properties[std::string(shorthand.field)]);
     }
     for (Json& schema : bare) schemas.push_back(std::move(schema));
-    if (presence == Presence::part) {
+    if (presence == Requirement::part) {
       Properties inherited;
       inherited.properties = any_field;
       schemas.push_back(inherited.schema("inherited", "Some fields; the type is the parent's."));
@@ -204,7 +204,7 @@ std::string schema()
   Definitions definitions;
   Preset defaults;
   const Value preset(defaults);
-  const Properties own = definitions.properties(preset, Presence::part);
+  const Properties own = definitions.properties(preset, Requirement::part);
   Json properties = file_keys();
   properties.update(own.properties);
   Json document{{"$schema", "https://json-schema.org/draft/2020-12/schema"},

@@ -25,11 +25,11 @@ struct Word {
 };
 
 /// What a bare JSON value in place of a struct may be.
-enum class Bare { number, text };
+enum class BareValue { number, text };
 
 /// `"dispersion": 1.5` stands for `{"type": "constant", "n": 1.5}`: a bare value is the field `field` of the type `type`.
 struct Shorthand {
-  Bare bare;
+  BareValue bare;
   std::string_view type, field;
 };
 
@@ -113,7 +113,7 @@ public:
   /// What the struct is called, in one word and in a sentence.
   void about(std::string_view name, std::string_view sentence) { name_ = name, sentence_ = sentence; }
   template <Enumeration E>
-  void shorthand(Bare bare, E type, std::string_view field)
+  void shorthand(BareValue bare, E type, std::string_view field)
   {
     shorthands_.push_back({bare, preset::word(type), field});
   }

@@ -31,7 +31,7 @@ std::string expected_integer(const Bounds& bounds, std::string_view unit)
 std::string expected_object(const ValueType& type)
 {
   std::string text;
-  for (const Shorthand& shorthand : type.shorthands) text += shorthand.bare == Bare::number ? "a number, " : "a string, ";
+  for (const Shorthand& shorthand : type.shorthands) text += shorthand.bare == BareValue::number ? "a number, " : "a string, ";
   return text.empty() ? "an object" : text.replace(text.size() - 2, 2, " or an object");
 }
 

@@ -80,13 +80,13 @@ std::vector<std::string> command(int frames, double fps)
 }
 
 /// What a program that ran said on standard error, and how it ended, as waitpid gives it.
-struct Ended {
+struct ProgramResult {
   int status = 0;
   std::string said;
 };
 
 /// Runs a program of the PATH in a folder, with no signal blocked. Returns the system's reason where it cannot be started.
-int run_in(const fs::path& folder, std::vector<std::string> words, Ended& ended)
+int run_in(const fs::path& folder, std::vector<std::string> words, ProgramResult& ended)
 {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -206,7 +206,7 @@ void write_frame_figures(const fs::path& folder, const std::vector<int>& frames)
 
 std::optional<std::string> make_video(const fs::path& folder, int frames, double fps)
 {
-  Ended ended;
+  ProgramResult ended;
   const int reason = run_in(folder, command(frames, fps), ended);
   if (reason == ENOENT) return "ffmpeg is not installed, or not on the PATH";
   if (reason != 0) return fmt::format("ffmpeg cannot be started: {}", std::strerror(reason));

@@ -134,7 +134,7 @@ Material make_material(const std::string& name, const preset::Material& material
   result.type = Material::Type::dielectric;
   const Place field = where / "dispersion";
   const optics::DispersionCurve curve = make_curve(material.dispersion, finder, field);
-  const optics::Outside outside = outside_policy(material.dispersion.outside);
+  const optics::Extrapolation outside = outside_policy(material.dispersion.outside);
   at(field, [&] {
     result.n = optics::sample_n(curve, outside);
     if (material.absorption && curve.k) result.k = optics::sample_k(curve, outside);

@@ -10,10 +10,10 @@
 namespace nephroid::scene {
 
 /// The preset's words for it, which knows nothing of optics, are the same in the same order.
-inline optics::Outside outside_policy(preset::Outside outside)
+inline optics::Extrapolation outside_policy(preset::Extrapolation outside)
 {
-  static_assert(int(optics::Outside::hold) == int(preset::Outside::hold) && int(optics::Outside::refuse) == int(preset::Outside::refuse));
-  return static_cast<optics::Outside>(outside);
+  static_assert(int(optics::Extrapolation::hold) == int(preset::Extrapolation::hold) && int(optics::Extrapolation::refuse) == int(preset::Extrapolation::refuse));
+  return static_cast<optics::Extrapolation>(outside);
 }
 
 /// The file of a preset's dispersion data: found as other files are, or a shipped material by its short name ("N-SF66"), which means

@@ -121,7 +121,7 @@ bool take_items(std::FILE* from, Items& items, std::uint64_t most)
 
 constexpr std::uint64_t most_bytes = std::uint64_t{256} << 20;
 
-struct Kept {
+struct CachedMesh {
   std::filesystem::path file;
   std::uint64_t bytes = 0, hash = 0; ///< of the file
   std::shared_ptr<const Mesh> mesh;
@@ -198,23 +198,23 @@ std::shared_ptr<const Mesh> load_mesh_once(const std::filesystem::path& file, co
 {
   watch.begin("reading " + file.filename().string());
   static std::mutex mutex;
-  static std::list<Kept> all; // the last used first
+  static std::list<CachedMesh> all; // the last used first
   if (has_further_files(file)) return std::make_shared<const Mesh>(load_mesh(file, watch.stop));
   const std::lock_guard lock(mutex);
   const std::string bytes = read_file(file);
   PieceHash hash;
   hash.add(std::as_bytes(std::span(bytes)));
-  Kept wanted{file, bytes.size(), hash.value(), nullptr};
+  CachedMesh wanted{file, bytes.size(), hash.value(), nullptr};
   for (auto kept = all.begin(); kept != all.end(); ++kept)
     if (kept->file == wanted.file && kept->bytes == wanted.bytes && kept->hash == wanted.hash) {
       all.splice(all.begin(), all, kept);
       return kept->mesh;
     }
   wanted.mesh = std::make_shared<const Mesh>(load_mesh(file, watch.stop));
-  all.remove_if([&](const Kept& kept) { return kept.file == file; });
+  all.remove_if([&](const CachedMesh& kept) { return kept.file == file; });
   all.push_front(wanted);
   std::uint64_t sum = 0;
-  all.remove_if([&](const Kept& kept) { return (sum += bytes_of(*kept.mesh)) > most_bytes; });
+  all.remove_if([&](const CachedMesh& kept) { return (sum += bytes_of(*kept.mesh)) > most_bytes; });
   return wanted.mesh;
 }
 

@@ -46,7 +46,7 @@ Mesh transformed(const Mesh& mesh, const Placement& placement, const glm::dvec3&
   return result;
 }
 
-void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const Place& where, Placed& placed)
+void check_extent(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, const Place& where, PlacedMesh& placed)
 {
   const Bounds bounds = placed_bounds(mesh, placement, where);
   const glm::dvec3 low = bounds.low - origin, high = bounds.high - origin;
@@ -99,7 +99,7 @@ void check_thickness(const Ellipsoid& ellipsoid, const Place& where)
 }
 
 /// The shape of a dielectric that its preset turns inside out has no inside to enter.
-void check_turned(Placed& placed)
+void check_turned(PlacedMesh& placed)
 {
   for (Ellipsoid& ellipsoid : placed.mesh.ellipsoids) {
     if (!ellipsoid.inwards) continue;
@@ -108,7 +108,7 @@ void check_turned(Placed& placed)
   }
 }
 
-void check_surface(const MeshReport& report, bool dielectric, Placed& placed)
+void check_surface(const MeshReport& report, bool dielectric, PlacedMesh& placed)
 {
   if (report.degenerate > 0) placed.warnings.push_back(counted(report.degenerate, "triangle") + " without area dropped");
   if (report.duplicated > 0) placed.warnings.push_back(counted(report.duplicated, "duplicated triangle") + " dropped");
@@ -181,9 +181,9 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& 
   return bounds;
 }
 
-Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const Place& where)
+PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const Place& where)
 {
-  Placed placed;
+  PlacedMesh placed;
   check_extent(mesh, placement, origin, where, placed);
   placed.mesh = transformed(mesh, placement, origin);
   const MeshReport report = inspect(placed.mesh);

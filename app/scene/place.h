@@ -22,7 +22,7 @@ struct Damage {
   std::string done; ///< what is done about it where the scene is rendered all the same; may be empty
 };
 
-struct Placed {
+struct PlacedMesh {
   Mesh mesh; ///< with normals, without degenerate or duplicated triangles
   Sphere bounds;
   bool closed = true;
@@ -36,7 +36,7 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& 
 
 /// origin: the scene's, in the preset's coordinates. dielectric: closedness and orientation matter then.
 /// Throws bad_input at where: too large, too small or too far away for single precision.
-Placed place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const Place& where);
+PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const Place& where);
 
 /// Where two surfaces lie in one place, which of them a ray meets first is a matter of rounding, and light would be lost between them.
 /// Draws in every dielectric whose bounds end where another object's bounds begin, end or lie, so that a gap of air is left which single

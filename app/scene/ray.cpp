@@ -11,7 +11,7 @@ namespace nephroid::scene {
 namespace {
 
 /// What waits on the stack: a node or leaf, and how far it is.
-struct Waiting {
+struct StackEntry {
   double entry = 0;
   int child = 0;
 };
@@ -132,17 +132,17 @@ void test_leaf(const Bvh& bvh, int leaf, const Ray& ray, Search& search)
 }
 
 /// The children that the ray enters, the nearest on top.
-void push_children(const float* node, const Ray& ray, double t_max, std::vector<Waiting>& waiting)
+void push_children(const float* node, const Ray& ray, double t_max, std::vector<StackEntry>& waiting)
 {
   const std::size_t bottom = waiting.size();
   for (std::size_t i = 0; i < children_per_node; ++i) {
-    Waiting next;
+    StackEntry next;
     if (!ray.enters(node, i, t_max, next.entry)) continue;
     std::memcpy(&next.child, node + 48 + i, sizeof next.child);
     waiting.push_back(next);
   }
   std::sort(waiting.begin() + static_cast<std::ptrdiff_t>(bottom), waiting.end(),
-            [](const Waiting& a, const Waiting& b) { return a.entry > b.entry; });
+            [](const StackEntry& a, const StackEntry& b) { return a.entry > b.entry; });
 }
 
 } // namespace
@@ -152,9 +152,9 @@ std::optional<RayHit> closest_hit(const Bvh& bvh, const glm::dvec3& origin, cons
 {
   const Ray ray(origin, direction);
   Search search{counts, t_max, leaves, std::nullopt};
-  std::vector<Waiting> waiting{{0, bvh.root}};
+  std::vector<StackEntry> waiting{{0, bvh.root}};
   while (!waiting.empty()) {
-    const Waiting next = waiting.back();
+    const StackEntry next = waiting.back();
     waiting.pop_back();
     if (next.entry > search.farthest()) continue;
     if (next.child < 0)

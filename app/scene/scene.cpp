@@ -104,7 +104,7 @@ void add_object(Scene& scene, const preset::Object& object, const Pending& pendi
 {
   const std::string label = object.name.empty() ? fmt::format("object {}", scene.objects.size()) : fmt::format("object '{}'", object.name);
   const bool dielectric = scene.materials[static_cast<std::size_t>(pending.material)].type == Material::Type::dielectric;
-  Placed placed = place(*pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
+  PlacedMesh placed = place(*pending.mesh, pending.placement, scene.origin, dielectric, pending.where);
   for (const std::string& warning : placed.warnings) scene.warnings.push_back(fmt::format("{}: {}", label, warning));
   tell_damages(scene, placed.damages, damaged, label, pending.where);
   if (scene.geometry.triangles.size() + placed.mesh.triangles.size() > max_triangles)

@@ -7,9 +7,9 @@ namespace nephroid::fuzz {
 
 void read(std::string_view input)
 {
-  using optics::Outside;
+  using optics::Extrapolation;
   const optics::DispersionCurve curve = optics::parse_dispersion(std::string(input), "glass.yml");
-  for (const Outside outside : {Outside::automatic, Outside::hold, Outside::extrapolate, Outside::refuse}) {
+  for (const Extrapolation outside : {Extrapolation::automatic, Extrapolation::hold, Extrapolation::extrapolate, Extrapolation::refuse}) {
     accepts([&] {
       for (const double n : optics::sample_n(curve, outside))
         if (!(n > 0 && std::isfinite(n))) finding("an index that is none");

@@ -30,7 +30,7 @@ std::vector<std::string> seeds()
   edits.push("seed", std::move(other));
   edits.push("sweep", preset, preset::Sweep{{"seed", {"1", "2"}}});
   session.edits = edits.state();
-  session.chosen.bookmarks = {{"near", {}}};
+  session.view_state.bookmarks = {{"near", {}}};
   session.pins = {{"pin-1", "first", 7, true}};
   return {ui::to_json(settings), ui::SessionText().of(session)};
 }

@@ -68,7 +68,7 @@ TEST_P(ErrorEstimate, IsTheTrueErrorWithinAQuarter)
     for (std::size_t run = 0; run < ended.size(); ++run) {
       const std::vector<float> truth = mean_but(ended, run);
       const measure::Metrics against =
-          measure::compare({width, height, ended[run].rgb, "run"}, {width, height, truth, "the others"}, {}, measure::Which::quick);
+          measure::compare({width, height, ended[run].rgb, "run"}, {width, height, truth, "the others"}, {}, measure::MetricSet::quick);
       // The others' mean has an error of its own, 1 / sqrt(7) of a run's: sqrt(1 + 1/7) of the true error is seen.
       const auto errors = measure::named(against);
       const auto found = std::find_if(errors.begin(), errors.end(), [&](const auto& error) { return error.first == metric; });

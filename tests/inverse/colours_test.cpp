@@ -89,8 +89,8 @@ TEST(Colours, APrismSendsEachWavelengthWhereSnellSays)
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(sum[i], own[i], 5e-3 * glm::length(own)) << nm; // of 2025 rays one has two lines' mean
     sent += own.y;
   }
-  EXPECT_NEAR(judge.fates().sent, sent, 1e-4);
-  EXPECT_NEAR(judge.fates().sent + judge.fates().reflected + judge.fates().lost, 1, 1e-6);
+  EXPECT_NEAR(judge.outcomes().sent, sent, 1e-4);
+  EXPECT_NEAR(judge.outcomes().sent + judge.outcomes().reflected + judge.outcomes().lost, 1, 1e-6);
 }
 
 // All colours of daylight together are daylight's, whatever each ray has drawn; the rim towards the object's axis is red, the other blue.
@@ -111,7 +111,7 @@ TEST(Colours, AllOfThemTogetherAreTheLights)
     through[i] = daylight[i] * behind(gradient, index_at_nm(optics::wavelength_nm(static_cast<int>(i)))).part;
   const optics::Colour all = optics::to_xyz(through);
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(sum[i], all[static_cast<std::size_t>(i)] / optics::to_xyz(daylight)[1], 1e-4) << i;
-  EXPECT_NEAR(judge.fates().sent + judge.fates().reflected + judge.fates().lost, 1, 1e-6);
+  EXPECT_NEAR(judge.outcomes().sent + judge.outcomes().reflected + judge.outcomes().lost, 1, 1e-6);
   EXPECT_GT(near.x / near.z, 4 * far.x / far.z);
   const auto picture = coloured_picture(seen, 1, layout);
   double luminance = 0;

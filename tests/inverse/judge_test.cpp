@@ -16,7 +16,7 @@ using inverse::Layout;
 
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
-void expect_all_light(const Fates& f) { EXPECT_NEAR(f.sent + f.reflected + f.lost, 1, 1e-6); }
+void expect_all_light(const RayOutcomes& f) { EXPECT_NEAR(f.sent + f.reflected + f.lost, 1, 1e-6); }
 
 // Light goes straight through a slab: both sides let 1 - ((n - 1) / (n + 1))^2 = 0.96 through, and every cell gets the same.
 TEST(Judge, SeesASlabAsAWindow)
@@ -25,9 +25,9 @@ TEST(Judge, SeesASlabAsAWindow)
   const Solid solid = make_solid(layout, std::vector<glm::dvec2>(256));
   Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
-  EXPECT_NEAR(judge.fates().sent, 0.96 * 0.96, 1e-6);
-  EXPECT_EQ(judge.fates().by_walls, 0);
-  expect_all_light(judge.fates());
+  EXPECT_NEAR(judge.outcomes().sent, 0.96 * 0.96, 1e-6);
+  EXPECT_EQ(judge.outcomes().by_walls, 0);
+  expect_all_light(judge.outcomes());
   for (const std::size_t receiver : {0u, 1u})
     for (const double cell : judge.light(receiver))
       EXPECT_NEAR(cell, 0.96 * 0.96 * 4, 1e-3); // 4 facets a cell; a ray at an edge may take the next one
@@ -126,7 +126,7 @@ TEST(Judge, AccountsForAllLight)
   const Solid solid = make_solid(layout, slopes);
   Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
-  const Fates f = judge.fates();
+  const RayOutcomes f = judge.outcomes();
   expect_all_light(f);
   EXPECT_GT(f.by_walls, 0.001);
   EXPECT_GT(f.lost, 0); // some walls throw light sideways

@@ -91,8 +91,8 @@ protected:
     const inverse::Solid solid = method.solid();
     inverse::Judge judge(test::shared_context(), lit, solid, 1);
     while (!judge.finished()) judge.advance();
-    const inverse::Fates fates = judge.fates();
-    return {method.costs().front(), judge.costs({target}).front(), fates.sent + fates.reflected + fates.lost,
+    const inverse::RayOutcomes outcomes = judge.outcomes();
+    return {method.costs().front(), judge.costs({target}).front(), outcomes.sent + outcomes.reflected + outcomes.lost,
             method.relief() / solid.relief()};
   }
 
@@ -118,7 +118,7 @@ TEST_F(Lens, IsJudgedAsItBelievesAndHasNoWalls)
   inverse::Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
   EXPECT_NEAR(judge.costs({target}).front().rel_l2, believed, 0.03);
-  EXPECT_NEAR(judge.fates().sent + judge.fates().reflected + judge.fates().lost, 1, 1e-6);
+  EXPECT_NEAR(judge.outcomes().sent + judge.outcomes().reflected + judge.outcomes().lost, 1, 1e-6);
 }
 
 // Cut within the transport, and between corrections.

@@ -127,7 +127,7 @@ TEST(Lights, AllLightIsAccountedFor)
     const Solid solid = make_solid(layout, std::vector<glm::dvec2>(400, {-0.1, 0.1}));
     Judge judge(test::shared_context(), layout, solid, 1);
     while (!judge.finished()) judge.advance();
-    const inverse::Fates f = judge.fates();
+    const inverse::RayOutcomes f = judge.outcomes();
     EXPECT_NEAR(f.sent + f.reflected + f.lost, 1, 1e-4); // the lamp's weights are drawn
     EXPECT_LE(std::accumulate(judge.light(0).begin(), judge.light(0).end(), 0.0), 400 * f.sent * (1 + 1e-6));
   }

@@ -155,8 +155,8 @@ TEST(ThesisSampler, FollowsTheProductOfThePictures)
 {
   Layout layout{.facets = {4, 4}, .cells = {6, 6}, .distances = {100, 150}};
   std::mt19937_64 random(5);
-  std::vector<Aim> aims{{100, {}, 0}, {150, {}, 0}};
-  for (Aim& aim : aims)
+  std::vector<SamplingTarget> aims{{100, {}, 0}, {150, {}, 0}};
+  for (SamplingTarget& aim : aims)
     for (int i = 0; i < 36; ++i) aim.picture.push_back(inverse::uniform(random));
   const std::size_t facet = 2;
   std::vector<double> expected(36);
@@ -250,10 +250,10 @@ TEST(ThesisPictures, MissingCellsNeedExtensionAndOvershoot)
 {
   const Layout layout = one_facet();
   const auto needs = [&](const std::vector<std::size_t>& first, const std::vector<std::size_t>& second) {
-    const std::vector<Aim> aims{{100, lit(first), 0}, {200, lit(second), 0}};
+    const std::vector<SamplingTarget> aims{{100, lit(first), 0}, {200, lit(second), 0}};
     return needs_of(layout, aims, {margin_of(aims[0].picture, layout), margin_of(aims[1].picture, layout)});
   };
-  std::vector<Need> all = needs({4, 6}, {4});
+  std::vector<MissingLight> all = needs({4, 6}, {4});
   EXPECT_EQ(all[0].missing, 1u);
   EXPECT_EQ(all[1].missing, 0u);
   EXPECT_EQ(all[1].extension, 4); // from column 4 to column 8
@@ -271,7 +271,7 @@ TEST(ThesisPictures, MissingCellsNeedExtensionAndOvershoot)
 TEST(ThesisAnnealer, CoolsAndFindsTheLowest)
 {
   const auto cost = [](const std::vector<double>& v) { return (v[0] - 0.3) * (v[0] - 0.3) + (v[1] - 2) * (v[1] - 2); };
-  const std::vector<Knob> knobs{{0.9, 0.1, 0, 1}, {1, 0.1, 0.5, 1.2}}; // 2 is out of reach: 1.2
+  const std::vector<AnnealedParameter> knobs{{0.9, 0.1, 0, 1}, {1, 0.1, 0.5, 1.2}}; // 2 is out of reach: 1.2
   Annealer annealer(knobs, {0.01, 0.5, 20, 20}, cost({0.9, 1}));
   EXPECT_EQ(annealer.temperature(), 0.01);
   for (std::uint64_t i = 0; !annealer.finished(); ++i) {

@@ -85,7 +85,7 @@ TEST(Draft, OfASlabIsAWindow)
   const Solid solid = make_solid(layout, std::vector<glm::dvec2>(256));
   Judge judge(test::shared_context(), layout, solid, 1);
   while (!judge.finished()) judge.advance();
-  EXPECT_NEAR(judge.fates().sent, 0.96 * 0.96, 1e-6);
+  EXPECT_NEAR(judge.outcomes().sent, 0.96 * 0.96, 1e-6);
 }
 
 TEST(Draft, AMeshRepairerFindsNothingToRepair)
@@ -269,7 +269,7 @@ TEST(Workshop, SaysWhatToolAndPrinterLeave)
 }
 
 /// No two overlap or are nearer than the gap, and none is beside the plate.
-void expect_apart(const glm::dvec2& plate, double gap, const std::vector<Placed>& bodies)
+void expect_apart(const glm::dvec2& plate, double gap, const std::vector<PlatePart>& bodies)
 {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const glm::dvec2 rim = plate / 2.0 - glm::abs(bodies[i].middle) - bodies[i].size / 2.0;
@@ -285,8 +285,8 @@ TEST(Plate, KeepsObjectsApart)
 {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> side(10, 60);
-  std::vector<Placed> bodies(24);
-  for (Placed& body : bodies) body.size = {side(random), side(random)};
+  std::vector<PlatePart> bodies(24);
+  for (PlatePart& body : bodies) body.size = {side(random), side(random)};
   const glm::dvec2 plate(300, 330);
   ASSERT_FALSE(put_on_shelves(plate, 4, bodies));
   expect_apart(plate, 4, bodies);
@@ -295,7 +295,7 @@ TEST(Plate, KeepsObjectsApart)
 // Three of 46 mm with gaps of 4 mm fill a row of 154 mm exactly.
 TEST(Plate, IsFilledToItsRimAndNoFurther)
 {
-  std::vector<Placed> bodies(6, {"", {46, 46}, {}});
+  std::vector<PlatePart> bodies(6, {"", {46, 46}, {}});
   EXPECT_FALSE(put_on_shelves({154, 104}, 4, bodies));
   EXPECT_EQ(put_on_shelves({153.9, 104}, 4, bodies), 4u);
   EXPECT_EQ(put_on_shelves({154, 103.9}, 4, bodies), 3u);
@@ -307,7 +307,7 @@ TEST(Plate, IsAsManyClosedBodies)
 {
   const Layout layout = test::small(9, 7);
   const scene::Mesh mesh = make_solid(layout, test::random_slopes(layout, 0.3, 4)).mesh;
-  std::vector<Placed> bodies(3, {"", layout.size, {}});
+  std::vector<PlatePart> bodies(3, {"", layout.size, {}});
   ASSERT_FALSE(put_on_shelves({30, 30}, 1, bodies));
   const scene::Mesh plate = plate_mesh({mesh, mesh, mesh}, bodies);
   const scene::MeshReport report = scene::inspect(plate), one = scene::inspect(mesh);

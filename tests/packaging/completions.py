@@ -4,7 +4,7 @@
 
     tests/packaging/completions.py PROGRAM FOLDER
 
-bash, zsh and fish parse theirs; bash and fish also complete some lines. Which of them are here is printed.
+bash, zsh and fish parse theirs; bash and fish also complete some lines. MetricSet of them are here is printed.
 """
 import re
 import shutil

@@ -20,7 +20,7 @@ public:
 
   const preset::Preset& preset() const { return *workbench.preset(); }
   const preset::Scene& scene() const { return preset().scene; }
-  const ui::Chosen& chosen() const { return workbench.chosen(); }
+  const ui::ViewState& view_state() const { return workbench.view_state(); }
   const ui::Settings& settings() const { return workbench.settings(); }
   const ui::RunInHand& run() const { return workbench.run(); }
   const auto& comparing() const { return workbench.comparing(); }
@@ -47,11 +47,11 @@ public:
   void remember()
   {
     ImGui::SetClipboardText("nothing was copied");
-    before = {preset(), workbench.chosen(), workbench.settings(), workbench.run().status().generation};
+    before = {preset(), workbench.view_state(), workbench.settings(), workbench.run().status().generation};
   }
   struct Before {
     preset::Preset preset;
-    ui::Chosen chosen;
+    ui::ViewState view_state;
     ui::Settings settings;
     std::uint64_t run = 0;
   } before;

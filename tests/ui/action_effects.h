@@ -88,23 +88,23 @@ inline Effect nudges(std::size_t axis, int sign)
 inline Effect uses(Handles::Tool tool)
 {
   return {[tool](Desk& d) {
-            Handles handles = d.chosen().handles;
+            Handles handles = d.view_state().handles;
             handles.tool = tool == Handles::Tool::turn ? Handles::Tool::move : Handles::Tool::turn;
             d.apply(command::SetHandles{handles});
           },
-          [tool](Desk& d) { return d.chosen().handles.tool == tool; }};
+          [tool](Desk& d) { return d.view_state().handles.tool == tool; }};
 }
 inline Effect toggles(bool Handles::*member)
 {
-  return {{}, [member](Desk& d) { return d.chosen().handles.*member != d.before.chosen.handles.*member; }};
+  return {{}, [member](Desk& d) { return d.view_state().handles.*member != d.before.chosen.handles.*member; }};
 }
 
 inline void add_select_and_camera(Effects& all)
 {
-  const auto selects_last = [](Desk& d) { return d.chosen().selection == selectable(d.preset()).back(); };
-  all["Select the next"] = {{}, [](Desk& d) { return d.chosen().selection == selectable(d.preset()).front(); }};
+  const auto selects_last = [](Desk& d) { return d.view_state().selection == selectable(d.preset()).back(); };
+  all["Select the next"] = {{}, [](Desk& d) { return d.view_state().selection == selectable(d.preset()).front(); }};
   all["Select the one before"] = {{}, selects_last};
-  all["Deselect"] = {select_lamp, [](Desk& d) { return d.chosen().selection == Selection{}; }};
+  all["Deselect"] = {select_lamp, [](Desk& d) { return d.view_state().selection == Selection{}; }};
   all["Look at the selected"] = {select_lamp, [](Desk& d) { return d.scene().camera.target == d.scene().lights[0].position; }};
   all["Move"] = uses(Handles::Tool::move);
   all["Turn"] = uses(Handles::Tool::turn);
@@ -120,7 +120,7 @@ inline void add_select_and_camera(Effects& all)
   all["Nudge away"] = nudges(2, -1);
   all["Nudge nearer"] = nudges(2, 1);
 
-  all["Bookmark this camera"] = {{}, [](Desk& d) { return d.chosen().bookmarks.size() == d.before.chosen.bookmarks.size() + 1; }};
+  all["Bookmark this camera"] = {{}, [](Desk& d) { return d.view_state().bookmarks.size() == d.before.chosen.bookmarks.size() + 1; }};
   const auto bookmark_nine = [](Desk& d) {
     std::vector<Bookmark> bookmarks;
     for (int bookmark = 1; bookmark <= 9; ++bookmark) d.edit(10 + bookmark), bookmarks.push_back({"", d.scene().camera});
@@ -133,12 +133,12 @@ inline void add_select_and_camera(Effects& all)
 
 inline Effect moves_pixel(int x, int y)
 {
-  return {inspect_pixel, [x, y](Desk& d) { return d.chosen().pixel == std::optional(std::array{20 + x, 20 + y}); }};
+  return {inspect_pixel, [x, y](Desk& d) { return d.view_state().pixel == std::optional(std::array{20 + x, 20 + y}); }};
 }
 inline Effect sets_tone(ToneCurve tone)
 {
   return {[tone](Desk& d) { d.look({.tone = tone == ToneCurve::filmic ? ToneCurve::standard : ToneCurve::filmic}); },
-          [tone](Desk& d) { return d.chosen().view_settings.tone == tone; }};
+          [tone](Desk& d) { return d.view_state().view_settings.tone == tone; }};
 }
 /// Pinned, so that there is something to compare with.
 inline void compare_with_pin(Desk& d)
@@ -194,25 +194,25 @@ inline void add_run_and_view(Effects& all)
                       [](Desk& d) { return d.comparing().comparison().shown == 0; }};
   all["Compare with picture 1"] = {{}, [](Desk& d) { return d.comparing().comparison().pin == Comparison::run_in_hand; }};
   all["Compare with the next"] = {pin, [](Desk& d) { return d.comparing().comparison().pin != 0; }};
-  all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); }, [](Desk& d) { return d.chosen().view_settings.fit; }};
-  all["Actual size"] = {{}, [](Desk& d) { return !d.chosen().view_settings.fit && d.chosen().view_settings.zoom == 1; }};
-  all["Brighter"] = {{}, [](Desk& d) { return d.chosen().view_settings.exposure_stops == 0.5; }};
-  all["Darker"] = {{}, [](Desk& d) { return d.chosen().view_settings.exposure_stops == -0.5; }};
-  all["Exposure 0"] = {[](Desk& d) { d.look({.exposure_stops = 3}); }, [](Desk& d) { return d.chosen().view_settings.exposure_stops == 0; }};
+  all["Fit"] = {[](Desk& d) { d.look({.fit = false, .zoom = 2}); }, [](Desk& d) { return d.view_state().view_settings.fit; }};
+  all["Actual size"] = {{}, [](Desk& d) { return !d.view_state().view_settings.fit && d.view_state().view_settings.zoom == 1; }};
+  all["Brighter"] = {{}, [](Desk& d) { return d.view_state().view_settings.exposure_stops == 0.5; }};
+  all["Darker"] = {{}, [](Desk& d) { return d.view_state().view_settings.exposure_stops == -0.5; }};
+  all["Exposure 0"] = {[](Desk& d) { d.look({.exposure_stops = 3}); }, [](Desk& d) { return d.view_state().view_settings.exposure_stops == 0; }};
   const auto shows_direct = [](Desk& d) { return d.comparing().comparison().layer == "direct"; };
   all["Next layer"] = {{}, shows_direct};
   all["Previous layer"] = {{}, shows_direct}; // there is one, so that both ways lead to it
-  all["Next tone curve"] = {{}, [](Desk& d) { return d.chosen().view_settings.tone == ToneCurve::filmic; }};
+  all["Next tone curve"] = {{}, [](Desk& d) { return d.view_state().view_settings.tone == ToneCurve::filmic; }};
   all["Tone as image.png"] = sets_tone(ToneCurve::standard);
   all["Filmic tone"] = sets_tone(ToneCurve::filmic);
   all["False colour"] = sets_tone(ToneCurve::false_colour);
-  all["Inspect pixel"] = {{}, [](Desk& d) { return d.chosen().pixel == std::optional(std::array{32, 24}); }};
+  all["Inspect pixel"] = {{}, [](Desk& d) { return d.view_state().pixel == std::optional(std::array{32, 24}); }};
   all["Pixel to the left"] = moves_pixel(-1, 0);
   all["Pixel to the right"] = moves_pixel(1, 0);
   all["Pixel above"] = moves_pixel(0, -1);
   all["Pixel below"] = moves_pixel(0, 1);
   all["Copy pixel"] = {inspect_pixel, copies("20")};
-  all["Statistics of the picture"] = {{}, [](Desk& d) { return d.chosen().region == std::optional(PixelRegion{{0, 0}, {64, 48}}); }};
+  all["Statistics of the picture"] = {{}, [](Desk& d) { return d.view_state().region == std::optional(PixelRegion{{0, 0}, {64, 48}}); }};
 }
 
 /// Whether it is the panel that was brought to the front last.

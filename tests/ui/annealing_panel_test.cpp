@@ -128,13 +128,13 @@ TEST_F(AnnealingPanelTest, AClickedFacetShowsItsBeamOnEveryReceiver)
   EXPECT_EQ(beam.facet, glm::ivec2(x, y));
   const job::Picture& slopes = picture("slopes");
   ASSERT_THAT(beam.prints, SizeIs(2));
-  ASSERT_THAT(workbench.chosen().lines, SizeIs(3)); // the View's: its way, and a box on each receiver
-  EXPECT_NEAR(workbench.chosen().lines[0].back()[0], spot(x, y, facets, 200).x, 1e-4);
-  EXPECT_NEAR(workbench.chosen().lines[0].back()[1], spot(x, y, facets, 200).y, 1e-4);
-  EXPECT_EQ(workbench.chosen().lines[0].back()[2], -200);
+  ASSERT_THAT(workbench.view_state().lines, SizeIs(3)); // the View's: its way, and a box on each receiver
+  EXPECT_NEAR(workbench.view_state().lines[0].back()[0], spot(x, y, facets, 200).x, 1e-4);
+  EXPECT_NEAR(workbench.view_state().lines[0].back()[1], spot(x, y, facets, 200).y, 1e-4);
+  EXPECT_EQ(workbench.view_state().lines[0].back()[2], -200);
   for (const std::size_t j : {0u, 1u}) { // a box is about its beam
     const glm::dvec2 at = spot(x, y, facets, 100 * static_cast<double>(j + 1));
-    const auto& box = workbench.chosen().lines[j + 1];
+    const auto& box = workbench.view_state().lines[j + 1];
     EXPECT_LT(box[0][0], at.x);
     EXPECT_GT(box[2][0], at.x);
     EXPECT_GT(box[0][1], at.y);

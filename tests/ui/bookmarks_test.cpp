@@ -7,7 +7,7 @@ namespace nephroid::ui::bookmarks_test {
 
 class Bookmarks : public test::WindowFixture {
 protected:
-  const std::vector<Bookmark>& all() const { return workbench.chosen().bookmarks; }
+  const std::vector<Bookmark>& all() const { return workbench.view_state().bookmarks; }
   void bookmark() { press(ImGuiKey_B, ImGuiMod_Ctrl); }
   void show_list()
   {

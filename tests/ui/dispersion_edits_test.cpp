@@ -9,7 +9,7 @@ using photons::ClusterMethod;
 
 optics::Spectrum glass(const std::string& name)
 {
-  return optics::sample_n(optics::load_dispersion(shipped(name)), optics::Outside::automatic);
+  return optics::sample_n(optics::load_dispersion(shipped(name)), optics::Extrapolation::automatic);
 }
 
 TEST(DispersionEdits, SnapsToAGrid)
@@ -27,7 +27,7 @@ TEST(DispersionEdits, AGlassBecomesControlPointsThatReproduceIt)
     const FittedPoints fitted = fit_points(n);
     EXPECT_LE(fitted.greatest_deviation, 1e-4) << name;
     EXPECT_LE(fitted.points.size(), 20u) << name;
-    const optics::Spectrum again = optics::sample_n(optics::control_points(fitted.points), optics::Outside::refuse);
+    const optics::Spectrum again = optics::sample_n(optics::control_points(fitted.points), optics::Extrapolation::refuse);
     double worst = 0;
     for (std::size_t i = 0; i < n.size(); ++i) worst = std::max(worst, std::fabs(again[i] - n[i]));
     EXPECT_DOUBLE_EQ(worst, fitted.greatest_deviation) << name << ": it says what it is off by";
@@ -179,7 +179,7 @@ TEST_F(DispersionFilesTest, ACurveThatIsNoneIsSaidAndNothingIsLost)
   open_glass({{"glass", nowhere}});
   EXPECT_THAT(panel().model().error(), HasSubstr("gives no number at 380 nm"));
   preset::Dispersion refused = from_file(shipped("N-SF66"));
-  refused.outside = preset::Outside::refuse;
+  refused.outside = preset::Extrapolation::refuse;
   const preset::Dispersion missing = from_file("nowhere.yml");
   for (const preset::Dispersion& bad : {refused, missing, nowhere}) {
     edit([&](preset::Preset& p) { p.scene.materials.at("glass").dispersion = bad; });

@@ -47,7 +47,7 @@ protected:
   /// What the clusters of the preset's curve are, without the panel.
   std::size_t true_count(ClusterMethod method) const
   {
-    return photons::cluster_wavelengths(optics::sample_n(optics::control_points(dispersion().table), optics::Outside::automatic),
+    return photons::cluster_wavelengths(optics::sample_n(optics::control_points(dispersion().table), optics::Extrapolation::automatic),
                                         spectral::settings(*workbench.preset()).threshold_deg, method)
         .clusters.size();
   }

@@ -118,7 +118,7 @@ TEST_F(DispersionPanelTest, SeveralGlassesAreClusteredTogether)
   open_glass({{"glass", flint}, {"other", crown}});
   std::vector<photons::Clustering> both;
   for (const char* name : {"N-SF66", "N-BK7"})
-    both.push_back(photons::cluster_wavelengths(optics::sample_n(optics::load_dispersion(shipped(name)), optics::Outside::automatic), 0.05,
+    both.push_back(photons::cluster_wavelengths(optics::sample_n(optics::load_dispersion(shipped(name)), optics::Extrapolation::automatic), 0.05,
                                                 ClusterMethod::optimal));
   EXPECT_EQ(panel().model().clusters_of_run(), photons::common_refinement(both).size());
   edit([](preset::Preset& p) { spectral::settings(p).method = ClusterMethod::brute_force, spectral::settings(p).step_nm = 4; });

@@ -72,7 +72,7 @@ TEST(GizmoEdits, ATurnTurnsTheVertices)
 {
   for (const glm::dvec3& pivot : {glm::dvec3(0), glm::dvec3(0.1, -0.2, 0.25)}) {
     preset::Preset preset = box();
-    Grip grip = *grip_of(preset, first_object, nullptr);
+    GizmoTarget grip = *grip_of(preset, first_object, nullptr);
     grip.at += scene::rotation(preset.scene.objects[0].transform.rotate_deg) * (glm::dvec3(1.5, -0.8, 2) * pivot);
     grip.pivot = pivot;
     const glm::dvec3 axis = glm::normalize(glm::dvec3(1, 2, -0.5));
@@ -88,7 +88,7 @@ TEST(GizmoEdits, ATurnTurnsTheVertices)
 TEST(GizmoEdits, AMoveAndAStretchMoveTheVertices)
 {
   preset::Preset preset = box();
-  const Grip grip = *grip_of(preset, first_object, nullptr);
+  const GizmoTarget grip = *grip_of(preset, first_object, nullptr);
   const std::vector<glm::dvec3> before = vertices(preset);
   move(preset, first_object, {0.25, 0, -0.5}, 4);
   stretch(preset, first_object, grip, {2, 1, 1});
@@ -107,7 +107,7 @@ TEST(GizmoEdits, LightsAreAimedAndGrow)
   light.type = preset::Light::Type::area;
   light.direction = {0, -1, 0};
   light.up = {0, 0, 1};
-  Grip grip = *grip_of(preset, first_light, nullptr);
+  GizmoTarget grip = *grip_of(preset, first_light, nullptr);
   EXPECT_EQ(grip.at, glm::dvec3(0, 3, 0));
   turn(preset, first_light, grip, {1, 0, 0}, 90); // y to z, z to -y
   EXPECT_EQ(light.direction, (preset::Vec3{0, 0, -1}));

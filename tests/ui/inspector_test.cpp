@@ -15,9 +15,9 @@ class InspectorTest : public test::WindowFixtureOf<test::LayeredRuns> {
 protected:
   InspectorTest() : WindowFixtureOf("inspector") {}
   const InspectorPanel& inspector() { return workspace.panel<InspectorPanel>(); }
-  std::optional<Pixel> pixel() { return workbench.chosen().pixel; }
+  std::optional<Pixel> pixel() { return workbench.view_state().pixel; }
   /// The middle of a pixel on the screen.
-  Point place_of(int x, int y) { return place(workbench.chosen().view_settings, view().canvas(), {64, 48}).to_screen({x + 0.5, y + 0.5}); }
+  Point place_of(int x, int y) { return place(workbench.view_state().view_settings, view().canvas(), {64, 48}).to_screen({x + 0.5, y + 0.5}); }
   void with_alt(const std::function<void()>& what)
   {
     imgui.key(ImGuiMod_Alt, true);
@@ -52,7 +52,7 @@ TEST_F(InspectorTest, AltAndAClickTakesAPixelAndArrowsMoveIt)
   with_alt([&] { click(place_of(40, 11)); });
   EXPECT_THAT(pixel(), Optional(Pixel{40, 11}));
   EXPECT_EQ(camera(), before) << "the camera stays";
-  EXPECT_FALSE(workbench.chosen().region);
+  EXPECT_FALSE(workbench.view_state().region);
   press(ImGuiKey_LeftArrow);
   EXPECT_THAT(pixel(), Optional(Pixel{39, 11}));
   press(ImGuiKey_DownArrow);
@@ -163,7 +163,7 @@ TEST_F(InspectorTest, AltAndADragTakesARectangle)
   run_through();
   const preset::Camera before = camera();
   with_alt([&] { drag_between(place_of(31, 13), place_of(10, 4)); });
-  EXPECT_THAT(workbench.chosen().region, Optional(PixelRegion{{10, 4}, {32, 14}})) << "both corners are in it";
+  EXPECT_THAT(workbench.view_state().region, Optional(PixelRegion{{10, 4}, {32, 14}})) << "both corners are in it";
   EXPECT_FALSE(pixel()) << "a drag is no click";
   EXPECT_EQ(camera(), before);
   ASSERT_TRUE(has_statistics());
@@ -175,7 +175,7 @@ TEST_F(InspectorTest, AltAndADragTakesARectangle)
   click_on("copy region");
   EXPECT_THAT(ImGui::GetClipboardText(), HasSubstr("\n10,4,32,14,\"run\",luminance,W/m2/sr,"));
   click_on("clear");
-  EXPECT_FALSE(workbench.chosen().region);
+  EXPECT_FALSE(workbench.view_state().region);
   frames(2);
   EXPECT_EQ(inspector().statistics(), nullptr);
 }
@@ -185,7 +185,7 @@ TEST_F(InspectorTest, AKeyTakesTheWholePictureAndTheReferenceIsHeldAgainst)
   runs.reference = test::even_reference({1, 1, 1}, {0.5f, 0, 0});
   run_through();
   press(ImGuiKey_I, ImGuiMod_Shift);
-  EXPECT_THAT(workbench.chosen().region, Optional(PixelRegion{{0, 0}, {64, 48}}));
+  EXPECT_THAT(workbench.view_state().region, Optional(PixelRegion{{0, 0}, {64, 48}}));
   ASSERT_TRUE(has_statistics());
   const auto statistics = inspector().statistics();
   ASSERT_THAT(statistics->pictures, SizeIs(3));
@@ -194,7 +194,7 @@ TEST_F(InspectorTest, AKeyTakesTheWholePictureAndTheReferenceIsHeldAgainst)
   EXPECT_NEAR(statistics->pictures[2].of[3].mean, 0.125 - 1, 1e-6) << "blue of the difference";
   EXPECT_THAT(statistics->histogram.counts, SizeIs(2));
   press(ImGuiKey_I, ImGuiMod_Shift);
-  EXPECT_FALSE(workbench.chosen().region);
+  EXPECT_FALSE(workbench.view_state().region);
 }
 
 TEST_F(InspectorTest, RegionsOutsideOfThePictureDoNoHarm)
@@ -203,7 +203,7 @@ TEST_F(InspectorTest, RegionsOutsideOfThePictureDoNoHarm)
   for (const PixelRegion& region : {PixelRegion{{900, 900}, {1000, 1000}}, PixelRegion{{-50, -50}, {5, 5}}, PixelRegion{{5, 5}, {5, 9}}}) {
     apply({command::SelectRegion{region}});
   }
-  EXPECT_FALSE(workbench.chosen().region) << "the last one is empty";
+  EXPECT_FALSE(workbench.view_state().region) << "the last one is empty";
   EXPECT_TRUE(workbench.messages().empty());
 }
 

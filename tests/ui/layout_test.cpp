@@ -226,7 +226,7 @@ TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
   ASSERT_FALSE(workspace.palette().matches().empty());
   EXPECT_EQ(workspace.palette().matches().front()->name, "Brighter");
   press(ImGuiKey_Enter);
-  EXPECT_EQ(workbench.chosen().view_settings.exposure_stops, 0.5);
+  EXPECT_EQ(workbench.view_state().view_settings.exposure_stops, 0.5);
   EXPECT_EQ(workbench.question(), Question::none);
 }
 

@@ -17,7 +17,7 @@ protected:
   }
   static std::array<int, 3> bytes(float r, float g, float b) { return {shown_byte(r), shown_byte(g), shown_byte(b)}; }
   const std::string& layer() { return workbench.comparing().comparison().layer; }
-  const ViewSettings& view_settings() { return workbench.chosen().view_settings; }
+  const ViewSettings& view_settings() { return workbench.view_state().view_settings; }
   void click_on(const std::string& widget) { click_in(view(), widget, 2); }
   image::Image saved(const std::string& name)
   {
@@ -232,10 +232,10 @@ TEST_F(LooksTest, TheCameraIsCopiedAsTextThatPresetsTake)
 TEST(LooksOfASession, AreKept)
 {
   Session session;
-  session.chosen.view_settings.tone = ToneCurve::false_colour;
-  session.chosen.view_settings.false_colour = LuminanceRange{0.25, 64};
+  session.view_state.view_settings.tone = ToneCurve::false_colour;
+  session.view_state.view_settings.false_colour = LuminanceRange{0.25, 64};
   const std::string text = SessionText().of(session);
-  EXPECT_EQ(parse_session(text, "session.json").chosen.view_settings, session.chosen.view_settings);
+  EXPECT_EQ(parse_session(text, "session.json").chosen.view_settings, session.view_state.view_settings);
   EXPECT_EQ(parse_session(SessionText().of({}), "session.json").chosen.view_settings, ViewSettings{});
   std::string other = text;
   other.replace(other.find("false_colour"), 5, "wrong");

@@ -244,11 +244,11 @@ TEST_F(DroppedMeshTest, IsAnObjectWhereTheCameraLooks)
     EXPECT_NEAR(high[i] + low[i], 0, 0.002) << "its middle is at the camera's target";
   }
   EXPECT_EQ(workbench.edits()->undo_label(), "add thing.obj");
-  EXPECT_EQ(workbench.chosen().selection, (Selection{Selection::Kind::object, 1}));
+  EXPECT_EQ(workbench.view_state().selection, (Selection{Selection::Kind::object, 1}));
   EXPECT_THAT(last_message(workbench), HasSubstr("the object 'thing' of 'wall'"));
   workbench.apply({command::Undo{}});
   EXPECT_EQ(*workbench.preset(), workbench.edits()->opened());
-  EXPECT_EQ(in_preset(workbench.chosen().selection, workbench.preset()), Selection{});
+  EXPECT_EQ(in_preset(workbench.view_state().selection, workbench.preset()), Selection{});
 }
 
 TEST_F(DroppedMeshTest, IsOfTheFirstGlassAndOfAnotherName)

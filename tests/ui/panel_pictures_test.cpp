@@ -21,7 +21,7 @@ protected:
     preset::Preset preset = preset::read_preset(NEPHROID_SOURCE_DIR "/presets/spectral/thesis/newton.json");
     preset::Scene& scene = preset.scene;
     const optics::Spectrum n =
-        optics::sample_n(optics::load_dispersion(NEPHROID_SOURCE_DIR "/presets/materials/N-SF66.yml"), optics::Outside::automatic);
+        optics::sample_n(optics::load_dispersion(NEPHROID_SOURCE_DIR "/presets/materials/N-SF66.yml"), optics::Extrapolation::automatic);
     scene.materials.at("glass").dispersion = with_points({}, fit_points(n, 1e-3).points);
     // What N-SF66 bends as far as the preset's glass with 60 degrees, turned until what its base reflects misses the board.
     scene.objects.at(0).shape->apex_deg = 53;

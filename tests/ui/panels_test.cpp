@@ -29,7 +29,7 @@ TEST_F(PanelsTest, ShowsTheJobsPicture)
 TEST_F(PanelsTest, LeftDragOrbitsAsOneEntry)
 {
   open();
-  const double height = 48 * place(workbench.chosen().view_settings, view().canvas(), {64, 48}).scale;
+  const double height = 48 * place(workbench.view_state().view_settings, view().canvas(), {64, 48}).scale;
   drag(0, height / 2, 0); // half the picture's height: a quarter round; the scene goes right, the camera left
   EXPECT_NEAR(camera().position[0], -4, 0.1);
   EXPECT_NEAR(camera().position[2], 0, 0.1);
@@ -86,17 +86,17 @@ TEST_F(PanelsTest, WithCtrlThePictureMovesAndNotTheCamera)
   frame();
   imgui.wheel(2);
   frame();
-  const double zoom = workbench.chosen().view_settings.zoom;
-  EXPECT_FALSE(workbench.chosen().view_settings.fit);
+  const double zoom = workbench.view_state().view_settings.zoom;
+  EXPECT_FALSE(workbench.view_state().view_settings.fit);
   drag(0, 30, 0);
   imgui.key(ImGuiMod_Ctrl, false);
   frame();
-  EXPECT_NEAR(workbench.chosen().view_settings.centre[0], 32 - 30 / zoom, 0.1);
+  EXPECT_NEAR(workbench.view_state().view_settings.centre[0], 32 - 30 / zoom, 0.1);
   EXPECT_EQ(camera().position, (preset::Vec3{0, 0, 4}));
   EXPECT_FALSE(workbench.edits()->modified());
   EXPECT_EQ(runs.made, made) << "how a picture is shown needs no new run";
   press(ImGuiKey_F);
-  EXPECT_TRUE(workbench.chosen().view_settings.fit);
+  EXPECT_TRUE(workbench.view_state().view_settings.fit);
 }
 
 TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
@@ -108,7 +108,7 @@ TEST_F(PanelsTest, ExposureKeysChangeTheTextureOnly)
   const unsigned char before = view().texture().pixels()[1];
   press(ImGuiKey_E, ImGuiMod_Shift);
   press(ImGuiKey_E, ImGuiMod_Shift);
-  EXPECT_EQ(workbench.chosen().view_settings.exposure_stops, -1);
+  EXPECT_EQ(workbench.view_state().view_settings.exposure_stops, -1);
   EXPECT_LT(view().texture().pixels()[1], before);
   press(ImGuiKey_0);
   EXPECT_EQ(view().texture().pixels()[1], before);
@@ -251,7 +251,7 @@ TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
   EXPECT_THAT(only_message(workbench), StartsWith("saved "));
   apply({command::Ask{Question::save_picture}});
   press(ImGuiKey_E);
-  EXPECT_EQ(workbench.chosen().view_settings.exposure_stops, 0);
+  EXPECT_EQ(workbench.view_state().view_settings.exposure_stops, 0);
   press(ImGuiKey_Escape);
   EXPECT_EQ(workbench.question(), Question::none);
   EXPECT_NE(workbench.run().status().state, job::State::cancelled);

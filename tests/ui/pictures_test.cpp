@@ -55,7 +55,7 @@ protected:
   std::array<int, 3> texel(const PictureTexture& texture) const { return {texture.pixels()[0], texture.pixels()[1], texture.pixels()[2]}; }
   Point on_screen(const Point& pixel) const
   {
-    return place(workbench.chosen().view_settings, view().canvas(), view().shown().size).to_screen({pixel[0] + 0.5, pixel[1] + 0.5});
+    return place(workbench.view_state().view_settings, view().canvas(), view().shown().size).to_screen({pixel[0] + 0.5, pixel[1] + 0.5});
   }
   bool until_measured()
   {
@@ -127,11 +127,11 @@ TEST_F(PicturesTest, AnOpenedPictureIsMovedWithoutACamera)
   drag(0, 20, 10);
   EXPECT_NEAR(on_screen({10, 10})[0], at[0] + 20, 1.01);
   EXPECT_NEAR(on_screen({10, 10})[1], at[1] + 10, 1.01);
-  const double zoom = workbench.chosen().view_settings.zoom;
+  const double zoom = workbench.view_state().view_settings.zoom;
   move(middle());
   imgui.wheel(2);
   frames(2);
-  EXPECT_NEAR(workbench.chosen().view_settings.zoom, 1.21 * zoom, 1e-3 * zoom);
+  EXPECT_NEAR(workbench.view_state().view_settings.zoom, 1.21 * zoom, 1e-3 * zoom);
   EXPECT_EQ(camera(), before);
   EXPECT_FALSE(workbench.edits()->modified());
 }
@@ -200,7 +200,7 @@ TEST_F(PicturesTest, TwoSideBySideHaveTheSameZoomAndPixel)
   click(right);
   imgui.key(ImGuiMod_Alt, false);
   frame();
-  EXPECT_EQ(workbench.chosen().pixel, (std::optional(std::array{20, 10}))) << "a pixel is inspected in either";
+  EXPECT_EQ(workbench.view_state().pixel, (std::optional(std::array{20, 10}))) << "a pixel is inspected in either";
 }
 
 TEST_F(PicturesTest, MetricsAreOfTheShownAgainstTheCompared)

@@ -51,7 +51,7 @@ TEST_F(PresetsPanelTest, ListsEveryShippedPresetByName)
   EXPECT_THAT(entry("first-light").resolution, ElementsAre(512, 512));
   EXPECT_EQ(entry("first-light").stop, "20 passes");
   std::vector<std::string> needs;
-  for (const Need& need : entry("first-light").needs) needs.push_back(need.name);
+  for (const RequiredFile& need : entry("first-light").needs) needs.push_back(need.name);
   EXPECT_THAT(needs, UnorderedElementsAre("materials/N-SF66.yml", "bunny.obj"));
 }
 

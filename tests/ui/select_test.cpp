@@ -25,11 +25,11 @@ protected:
   const preset::Scene& scene() const { return workbench.preset()->scene; }
   Pinhole pinhole() const
   {
-    const ViewSettings& view_settings = workbench.chosen().view_settings;
+    const ViewSettings& view_settings = workbench.view_state().view_settings;
     return *make_pinhole(scene().camera, place(view_settings, view().canvas(), view().shown().size), view().shown().size);
   }
   Point at(double x, double y, double z) const { return *pinhole().to_screen({x, y, z}); }
-  Selection selected() const { return workbench.chosen().selection; }
+  Selection selected() const { return workbench.view_state().selection; }
   void select(const Selection& selection) { apply({command::Select{selection}}); }
   /// On the screen: 0 their middle; 1, 2, 3 along x, y, z.
   Point handle(std::size_t i) const { return (*view().overlay().gizmo().places())[i]; }
@@ -158,7 +158,7 @@ TEST_F(Select, ADragThatLeavesTheViewGoesOn)
   open();
   select(ball);
   press(ImGuiKey_S);
-  ASSERT_EQ(workbench.chosen().handles.tool, Handles::Tool::scale);
+  ASSERT_EQ(workbench.view_state().handles.tool, Handles::Tool::scale);
   const Point tip = handle(1);
   const double right = view().canvas().corner[0] + view().canvas().size[0];
   press_at(tip);
@@ -241,7 +241,7 @@ TEST_F(Select, ArrowKeysNudge)
 TEST_F(Select, ButtonsChooseTheTool)
 {
   open();
-  const auto handles = [&] { return workbench.chosen().handles; };
+  const auto handles = [&] { return workbench.view_state().handles; };
   click(*view().place_of("Turn"));
   EXPECT_EQ(handles().tool, Handles::Tool::turn);
   click(*view().place_of("Scale"));

@@ -33,7 +33,7 @@ protected:
   std::string preset_file() const { return folder.write("test.json", test::preset_text); }
   std::string text_of(const Workbench& workbench) const
   {
-    Session session{.edits = workbench.edits()->state(), .chosen = workbench.chosen()};
+    Session session{.edits = workbench.edits()->state(), .view_state = workbench.view_state()};
     return SessionText().of(session);
   }
 };
@@ -118,10 +118,10 @@ TEST_F(SessionTest, AKilledWindowIsOpenedAgainAsItWas)
   ASSERT_NE(window.workbench.preset(), nullptr);
   EXPECT_TRUE(window.workbench.messages().empty());
   EXPECT_TRUE(window.workbench.edits()->modified());
-  EXPECT_EQ(window.workbench.chosen().view_settings.exposure_stops, 1.5);
-  EXPECT_EQ(window.workbench.chosen().error_metric, "mse");
-  ASSERT_EQ(window.workbench.chosen().bookmarks.size(), 1u);
-  EXPECT_EQ(window.workbench.chosen().bookmarks[0].camera, window.workbench.preset()->scene.camera);
+  EXPECT_EQ(window.workbench.view_state().view_settings.exposure_stops, 1.5);
+  EXPECT_EQ(window.workbench.view_state().error_metric, "mse");
+  ASSERT_EQ(window.workbench.view_state().bookmarks.size(), 1u);
+  EXPECT_EQ(window.workbench.view_state().bookmarks[0].camera, window.workbench.preset()->scene.camera);
   EXPECT_EQ(window.workbench.preset()->source, (folder.path() / "test.json").string());
   for (int i = 0; i < 20; ++i) window.workbench.apply({command::Redo{}});
   for (std::size_t i = states.size(); i-- > 0;) {

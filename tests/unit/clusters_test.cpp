@@ -15,7 +15,7 @@ constexpr double radian = std::numbers::pi / 180;
 Spectrum glass(const std::string& name)
 {
   return optics::sample_n(optics::load_dispersion(std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"),
-                          optics::Outside::automatic);
+                          optics::Extrapolation::automatic);
 }
 
 Spectrum made(const std::function<double(double nm)>& n)
@@ -288,7 +288,7 @@ TEST(Clusters, CommonRefinementOfNothingOneAndItself)
 Spectrum material(const std::string& name)
 {
   return optics::sample_n(optics::load_dispersion(std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/" + name + ".yml"),
-                          optics::Outside::refuse);
+                          optics::Extrapolation::refuse);
 }
 
 double bump(double nm, double centre_nm, double width_nm) { return std::exp(-std::pow((nm - centre_nm) / width_nm, 2)); }
@@ -347,7 +347,7 @@ TEST(DesignedCurves, TheFirstMeetsTwoFiveTimes) { EXPECT_EQ(crossings(material("
 TEST(DesignedCurves, SortingChangesNothingWhereNFalls)
 {
   const Spectrum glass = optics::sample_n(optics::load_dispersion(std::string(NEPHROID_SOURCE_DIR) + "/presets/materials/N-SF66.yml"),
-                                          optics::Outside::automatic);
+                                          optics::Extrapolation::automatic);
   for (double threshold : {0.5, 0.1, 0.05, 0.01}) EXPECT_EQ(clusters_without_sorting(glass, threshold), clusters_sorted(glass, threshold));
 }
 

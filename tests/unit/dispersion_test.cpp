@@ -16,7 +16,7 @@ const fs::path more = fs::path(NEPHROID_SOURCE_DIR) / "tests/data/dispersion";
 
 constexpr double line_F = 486.1327, line_d = 587.5618, line_C = 656.2725;
 
-double n_at(const DispersionCurve& curve, double nm, Outside outside = Outside::automatic)
+double n_at(const DispersionCurve& curve, double nm, Extrapolation outside = Extrapolation::automatic)
 {
   return curve.sample(nm, outside).n.value_or(std::nan(""));
 }
@@ -99,8 +99,8 @@ TEST(Dispersion, AFormulaWithoutAFiniteValueAnswersNothing)
   const IndexSample below = curve.sample(445); // just below the pole at 450 nm: n^2 is far below 0
   EXPECT_FALSE(below.n);
   EXPECT_TRUE(below.extrapolated);
-  EXPECT_THAT(refusal_of([&] { sample_n(curve, Outside::automatic); }), AllOf(HasSubstr("gives no number at"), HasSubstr("500..1000 nm")));
-  EXPECT_NEAR(sample_n(curve, Outside::hold)[0], n_at(curve, 500), 1e-15);
+  EXPECT_THAT(refusal_of([&] { sample_n(curve, Extrapolation::automatic); }), AllOf(HasSubstr("gives no number at"), HasSubstr("500..1000 nm")));
+  EXPECT_NEAR(sample_n(curve, Extrapolation::hold)[0], n_at(curve, 500), 1e-15);
 }
 
 TEST(Dispersion, RangeEndsCountAsInside)
@@ -108,8 +108,8 @@ TEST(Dispersion, RangeEndsCountAsInside)
   const DispersionCurve curve = from_yaml("  - type: formula 5\n    wavelength_range: 0.4861 0.5893\n    coefficients: 1.5\n");
   for (double nm : {486.1, 589.3, 486.1 * (1 - 5e-7), 589.3 * (1 + 5e-7)}) EXPECT_FALSE(curve.sample(nm).extrapolated) << nm;
   for (double nm : {486.0, 589.31}) EXPECT_TRUE(curve.sample(nm).extrapolated) << nm;
-  EXPECT_NO_THROW(curve.sample(589.3, Outside::refuse));
-  EXPECT_THAT(refusal_of([&] { curve.sample(600, Outside::refuse); }),
+  EXPECT_NO_THROW(curve.sample(589.3, Extrapolation::refuse));
+  EXPECT_THAT(refusal_of([&] { curve.sample(600, Extrapolation::refuse); }),
               HasSubstr("test.yml: test has no n at 600 nm; expected a wavelength in its range 486.1..589.3 nm"));
 }
 
@@ -118,25 +118,25 @@ TEST(Dispersion, OutsideHoldsExtrapolatesOrRefuses)
   const DispersionCurve glass = load_dispersion(materials / "N-SF66.yml"); // n by formula and k by table, both from 390 nm
   const double at_390 = n_at(glass, 390);
   EXPECT_GT(n_at(glass, 380), at_390 + 0.001);
-  EXPECT_EQ(n_at(glass, 380, Outside::extrapolate), n_at(glass, 380));
-  EXPECT_EQ(n_at(glass, 380, Outside::hold), at_390);
+  EXPECT_EQ(n_at(glass, 380, Extrapolation::extrapolate), n_at(glass, 380));
+  EXPECT_EQ(n_at(glass, 380, Extrapolation::hold), at_390);
   EXPECT_TRUE(glass.sample(380).extrapolated);
-  EXPECT_TRUE(glass.sample(380, Outside::hold).extrapolated);
+  EXPECT_TRUE(glass.sample(380, Extrapolation::hold).extrapolated);
   EXPECT_FALSE(glass.sample(390).extrapolated);
   EXPECT_NEAR(*glass.sample(380).k, 4.8564e-6, 1e-12);
   EXPECT_NEAR(*glass.sample(395).k, (4.8564e-6 + 2.1833e-6) / 2, 1e-12);
-  EXPECT_EQ(outside_note(glass, Outside::automatic), "N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)");
-  EXPECT_EQ(outside_note(glass, Outside::hold), "N-SF66: n is held below 390 nm (data: 390..2500 nm)");
-  EXPECT_EQ(outside_note(load_dispersion(materials / "N-BK7.yml"), Outside::automatic), "");
-  EXPECT_THAT(refusal_of([&] { sample_n(glass, Outside::refuse); }), HasSubstr("no n at 380 nm"));
-  EXPECT_THAT(refusal_of([&] { sample_k(glass, Outside::refuse); }), HasSubstr("no k at 380 nm"));
+  EXPECT_EQ(outside_note(glass, Extrapolation::automatic), "N-SF66: n is extrapolated below 390 nm (data: 390..2500 nm)");
+  EXPECT_EQ(outside_note(glass, Extrapolation::hold), "N-SF66: n is held below 390 nm (data: 390..2500 nm)");
+  EXPECT_EQ(outside_note(load_dispersion(materials / "N-BK7.yml"), Extrapolation::automatic), "");
+  EXPECT_THAT(refusal_of([&] { sample_n(glass, Extrapolation::refuse); }), HasSubstr("no n at 380 nm"));
+  EXPECT_THAT(refusal_of([&] { sample_k(glass, Extrapolation::refuse); }), HasSubstr("no k at 380 nm"));
 
   const DispersionCurve table = tabulated(Rows{{500, 1.6}, {600, 1.5}});
-  for (Outside outside : {Outside::automatic, Outside::hold, Outside::extrapolate}) {
+  for (Extrapolation outside : {Extrapolation::automatic, Extrapolation::hold, Extrapolation::extrapolate}) {
     EXPECT_EQ(n_at(table, 400, outside), 1.6);
     EXPECT_EQ(n_at(table, 700, outside), 1.5);
   }
-  EXPECT_EQ(outside_note(table, Outside::automatic), "table: n is held below 500 nm and above 600 nm (data: 500..600 nm)");
+  EXPECT_EQ(outside_note(table, Extrapolation::automatic), "table: n is held below 500 nm and above 600 nm (data: 500..600 nm)");
 }
 
 TEST(Dispersion, DatabaseTablesAreReadAsTheyAre)
@@ -147,8 +147,8 @@ TEST(Dispersion, DatabaseTablesAreReadAsTheyAre)
   EXPECT_NEAR(n_at(odd, 600), -1.2, 1e-15); // given twice: the mean; negative n stays
   EXPECT_NEAR(n_at(odd, 550), 0.2, 1e-12);
   EXPECT_NEAR(*odd.sample(700).k, -0.01, 1e-15);
-  EXPECT_EQ(sample_k(odd, Outside::automatic)[700 - first_nm], 0); // but light does not gain from it
-  EXPECT_THAT(refusal_of([&] { sample_n(odd, Outside::automatic); }), HasSubstr("n above 0"));
+  EXPECT_EQ(sample_k(odd, Extrapolation::automatic)[700 - first_nm], 0); // but light does not gain from it
+  EXPECT_THAT(refusal_of([&] { sample_n(odd, Extrapolation::automatic); }), HasSubstr("n above 0"));
 
   const DispersionCurve single = from_yaml("  - type: tabulated n\n    data: |\n        0.5893 1.33\n");
   EXPECT_EQ(n_at(single, 589.3), 1.33);
@@ -163,7 +163,7 @@ TEST(Dispersion, FilesWithOneOfNAndKOrWithBothApart)
   EXPECT_FALSE(k_only.sample(500).n);
   EXPECT_NEAR(*k_only.sample(500).k, 0.2, 1e-15);
   EXPECT_EQ(k_only.range_nm(), (std::array{400.0, 600.0}));
-  EXPECT_THAT(refusal_of([&] { sample_n(k_only, Outside::automatic); }), HasSubstr("no index of refraction n, only k"));
+  EXPECT_THAT(refusal_of([&] { sample_n(k_only, Extrapolation::automatic); }), HasSubstr("no index of refraction n, only k"));
 
   const DispersionCurve both = from_yaml("  - type: tabulated k\n    data: |\n        0.4 0.1\n  - type: constant\n    value: 1.7\n");
   EXPECT_EQ(n_at(both, 500), 1.7);
@@ -180,7 +180,7 @@ TEST(Dispersion, AnomalousTablesAreReadWithTheirAbsorption)
 {
   for (const char* file : {"rhodamine-6G-Seckin.yml", "F8BT-e-Kamptner.yml"}) {
     const DispersionCurve curve = load_dispersion(materials / file);
-    const Spectrum n = sample_n(curve, Outside::automatic), k = sample_k(curve, Outside::automatic);
+    const Spectrum n = sample_n(curve, Extrapolation::automatic), k = sample_k(curve, Extrapolation::automatic);
     EXPECT_GT(*std::max_element(k.begin(), k.end()), 0.1) << file;
     EXPECT_FALSE(std::is_sorted(n.begin(), n.end(), std::greater<>())) << file; // n rises somewhere: anomalous
   }
@@ -238,7 +238,7 @@ TEST(Dispersion, BadCurvesAreRefused)
 {
   // n^2 = 1 + l^2 / (l^2 - 0.36): negative from 424 nm to the resonance at 600 nm, inside the range.
   const std::array<double, 1> strength{1}, resonance{0.36};
-  for (const Outside outside : {Outside::automatic, Outside::hold})
+  for (const Extrapolation outside : {Extrapolation::automatic, Extrapolation::hold})
     EXPECT_THAT(refusal_of([&] { sample_n(sellmeier(strength, resonance), outside); }),
                 AllOf(HasSubstr("gives no number at 425 nm: n^2 is negative or infinite there"), Not(HasSubstr("hold"))));
   const double two[] = {1, 2}, one[] = {1}, bad[] = {1, NAN};

@@ -167,13 +167,13 @@ TEST(LayerCells, APixelHasWhatItAndItsNeighboursSeeTheMostSeenFirst)
 {
   // One row of five pixels with two samples each; the last pixel sees nothing, nor does its neighbour.
   const std::vector<int> seen{0, 0, 0, 1, 1, 1, -1, -1, -1, -1};
-  const LayerCells cells = make_layer_cells({seen, 5, 1, 2, 2}, 100, Unseen::no_cell);
+  const LayerCells cells = make_layer_cells({seen, 5, 1, 2, 2}, 100, EmptyPixel::no_cell);
   EXPECT_THAT(reflectors_of(cells, 0), ElementsAre(0, 1));
   EXPECT_THAT(reflectors_of(cells, 1), ElementsAre(0, 1));
   EXPECT_THAT(reflectors_of(cells, 2), ElementsAre(1, 0)) << "its own before its neighbour's";
   EXPECT_THAT(reflectors_of(cells, 3), ElementsAre(1));
   EXPECT_THAT(reflectors_of(cells, 4), ElementsAre());
-  const LayerCells all = make_layer_cells({seen, 5, 1, 2, 2}, 100, Unseen::a_cell);
+  const LayerCells all = make_layer_cells({seen, 5, 1, 2, 2}, 100, EmptyPixel::a_cell);
   EXPECT_THAT(reflectors_of(all, 4), ElementsAre(1)) << "light that falls there all the same has a place";
 }
 
@@ -181,7 +181,7 @@ TEST(LayerCells, CellsOfOneReflectorFillWholeBlocksAndNoTwoAreTheSame)
 {
   std::vector<int> seen;
   for (int i = 0; i < 40 * 30; ++i) seen.push_back(i * 7919 % 5);
-  const LayerCells cells = make_layer_cells({seen, 40, 30, 1, 5}, 5000, Unseen::a_cell);
+  const LayerCells cells = make_layer_cells({seen, 40, 30, 1, 5}, 5000, EmptyPixel::a_cell);
   std::set<int> numbers;
   for (const shared::LayerCell& cell : cells.cells) {
     EXPECT_TRUE(numbers.insert(cell.cell).second);
@@ -194,7 +194,7 @@ TEST(LayerCells, WhereThereAreTooManyEveryPixelKeepsTheOneItSeesMost)
 {
   std::vector<int> seen;
   for (int i = 0; i < 20 * 20; ++i) seen.insert(seen.end(), {i % 3, i % 3, (i + 1) % 3});
-  const LayerCells cells = make_layer_cells({seen, 20, 20, 3, 3}, 500, Unseen::a_cell);
+  const LayerCells cells = make_layer_cells({seen, 20, 20, 3, 3}, 500, EmptyPixel::a_cell);
   EXPECT_EQ(cells.cells.size(), 500u);
   for (std::size_t i = 0; i < 400; ++i) EXPECT_EQ(reflectors_of(cells, i).at(0), static_cast<int>(i) % 3) << i;
 }

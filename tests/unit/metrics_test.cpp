@@ -11,7 +11,7 @@ using namespace nephroid::measure;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Metrics quick(const Picture& a, const Picture& b, Mask mask = {}) { return compare(a.pixels("a"), b.pixels("b"), mask, Which::quick); }
+Metrics quick(const Picture& a, const Picture& b, Mask mask = {}) { return compare(a.pixels("a"), b.pixels("b"), mask, MetricSet::quick); }
 
 Picture stripes(int phase)
 {

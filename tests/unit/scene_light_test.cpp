@@ -93,10 +93,10 @@ TEST(SceneLight, EveryKindOfDispersionSpectrumAndReflectance)
   r.patch = "blue sky";
   EXPECT_GT(make_reflectance(r, "w")[450 - 380], make_reflectance(r, "w")[650 - 380]);
 
-  EXPECT_EQ(outside_policy(preset::Outside::automatic), optics::Outside::automatic);
-  EXPECT_EQ(outside_policy(preset::Outside::hold), optics::Outside::hold);
-  EXPECT_EQ(outside_policy(preset::Outside::extrapolate), optics::Outside::extrapolate);
-  EXPECT_EQ(outside_policy(preset::Outside::refuse), optics::Outside::refuse);
+  EXPECT_EQ(outside_policy(preset::Extrapolation::automatic), optics::Extrapolation::automatic);
+  EXPECT_EQ(outside_policy(preset::Extrapolation::hold), optics::Extrapolation::hold);
+  EXPECT_EQ(outside_policy(preset::Extrapolation::extrapolate), optics::Extrapolation::extrapolate);
+  EXPECT_EQ(outside_policy(preset::Extrapolation::refuse), optics::Extrapolation::refuse);
 }
 
 class SceneEnvironment : public testing::Test {

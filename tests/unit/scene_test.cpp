@@ -276,7 +276,7 @@ TEST_F(SceneFiles, MaterialFromAFileWithItsRangeAndAbsorption)
   EXPECT_THAT(scene.warnings, ElementsAre(AllOf(HasSubstr("material 'glass': "), HasSubstr("400"))));
   glass.absorption = false;
   EXPECT_FALSE(load_scene(preset).materials[0].absorbs);
-  glass.dispersion.outside = preset::Outside::refuse;
+  glass.dispersion.outside = preset::Extrapolation::refuse;
   EXPECT_THAT(refusal(preset), HasSubstr("p.json#/scene/materials/glass/dispersion: "));
 }
 

@@ -49,7 +49,7 @@ std::vector<std::uint64_t> listed(C c)
 }
 
 /// The arrow keys are those of a pixel or of what is selected, where there is one.
-bool can_step_pictures(C c) { return has_choice(c) && !c.chosen.pixel && c.selection() == Selection{}; }
+bool can_step_pictures(C c) { return has_choice(c) && !c.view_state.pixel && c.selection() == Selection{}; }
 
 template <int step>
 void step_picture(C c)

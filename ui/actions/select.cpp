@@ -36,7 +36,7 @@ void select_next(C c)
 template <class Change>
 void set_handles(C c, Change change)
 {
-  Handles handles = c.chosen.handles;
+  Handles handles = c.view_state.handles;
   change(handles);
   c.push(command::SetHandles{handles});
 }
@@ -44,13 +44,13 @@ void set_handles(C c, Change change)
 Action tool_action(const char* name, ImGuiKey key, const char* help, Tool tool)
 {
   return switching({name, key, help, has_things, [tool](C c) { set_handles(c, [&](Handles& h) { h.tool = tool; }); }},
-                   [tool](C c) { return c.chosen.handles.tool == tool; });
+                   [tool](C c) { return c.view_state.handles.tool == tool; });
 }
 
 Action handles_action(const char* name, ImGuiKey key, const char* help, bool Handles::*member)
 {
   return switching({name, key, help, has_things, [member](C c) { set_handles(c, [&](Handles& h) { h.*member = !(h.*member); }); }},
-                   [member](C c) { return c.chosen.handles.*member; });
+                   [member](C c) { return c.view_state.handles.*member; });
 }
 
 std::optional<preset::Camera> camera_at_selected(C c)
@@ -71,10 +71,10 @@ void look_at(C c)
 void nudge(C c, Nudge direction)
 {
   const Selection selection = c.selection();
-  auto edited = nudged(*c.preset(), selection, c.chosen.handles, c.run.seen<ViewedScene>().get(), direction);
+  auto edited = nudged(*c.preset(), selection, c.view_state.handles, c.run.seen<ViewedScene>().get(), direction);
   if (!edited || edited->scene == c.preset()->scene) return;
   const double now = ImGui::GetTime();
-  command::Nudged newest = c.chosen.nudged;
+  command::Nudged newest = c.view_state.nudged;
   if (newest.gesture == 0) newest.gesture = Gestures("nudge").begin() - 1;
   if (now - newest.at_s > nudge_gesture_s) ++newest.gesture;
   newest.at_s = now;
@@ -85,7 +85,7 @@ void nudge(C c, Nudge direction)
 /// A key that was held went up.
 void end_nudge(C c)
 {
-  if (c.chosen.nudged.gesture != 0) c.push(command::EndGesture{});
+  if (c.view_state.nudged.gesture != 0) c.push(command::EndGesture{});
 }
 
 Action nudge_action(const char* name, ImGuiKey key, Nudge direction)

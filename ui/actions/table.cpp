@@ -207,7 +207,7 @@ std::vector<Action> window_actions()
 
 void bookmark(C c)
 {
-  std::vector<Bookmark> bookmarks = c.chosen.bookmarks;
+  std::vector<Bookmark> bookmarks = c.view_state.bookmarks;
   bookmarks.push_back({new_bookmark_name(*c.preset(), bookmarks), c.preset()->scene.camera});
   c.note("bookmarked the camera as \"" + bookmarks.back().name + "\"");
   c.push(command::SetBookmarks{std::move(bookmarks)});
@@ -218,9 +218,9 @@ std::vector<Action> camera_actions()
   std::vector<Action> all{{"Bookmark this camera", ctrl | ImGuiKey_B, "Keep where the camera is, to come back", has_preset, bookmark}};
   for (std::size_t i = 0; i < 9; ++i)
     all.push_back({fmt::format("Go to camera {}", i + 1), ctrl | static_cast<int>(ImGuiKey_1 + i),
-                   "The camera of the View's list \"Cameras\"", [i](C c) { return c.preset() && i < c.chosen.bookmarks.size(); },
+                   "The camera of the View's list \"Cameras\"", [i](C c) { return c.preset() && i < c.view_state.bookmarks.size(); },
                    [i](C c) { go_to_bookmark(c, i); },
-                   [](C c) { return fmt::format("{} cameras are bookmarked", c.chosen.bookmarks.size()); }});
+                   [](C c) { return fmt::format("{} cameras are bookmarked", c.view_state.bookmarks.size()); }});
   return all;
 }
 

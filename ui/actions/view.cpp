@@ -60,7 +60,7 @@ void next_layer(C c)
 Action tone_action(const char* name, const char* help, ToneCurve curve)
 {
   return switching({name, 0, help, always, [curve](C c) { change_view(c, [&](ViewSettings& l) { l.tone = curve; }); }},
-                   [curve](C c) { return c.chosen.view_settings.tone == curve; });
+                   [curve](C c) { return c.view_state.view_settings.tone == curve; });
 }
 
 void next_tone(C c)
@@ -68,14 +68,14 @@ void next_tone(C c)
   change_view(c, [](ViewSettings& l) { l.tone = static_cast<ToneCurve>((static_cast<int>(l.tone) + 1) % tone_curves); });
 }
 
-bool has_pixel(C c) { return c.chosen.pixel.has_value(); }
+bool has_pixel(C c) { return c.view_state.pixel.has_value(); }
 /// The arrow keys are those of what is selected, where something is.
 bool can_step(C c) { return has_pixel(c) && c.selection() == Selection{}; }
 
 /// The pixel in the middle of what is shown; none where one was.
 void inspect(C c)
 {
-  if (c.chosen.pixel) return c.push(command::InspectPixel{});
+  if (c.view_state.pixel) return c.push(command::InspectPixel{});
   const job::Picture& picture = *c.comparing.source();
   const ViewSettings view_settings = c.view_settings();
   const auto middle = [&](std::size_t i, int length) {
@@ -89,19 +89,19 @@ void move_pixel(C c)
 {
   if (!is_shown(c)) return;
   const job::Picture& picture = *c.comparing.source();
-  const auto [x, y] = *c.chosen.pixel;
+  const auto [x, y] = *c.view_state.pixel;
   c.push(command::InspectPixel{std::array{std::clamp(x + dx, 0, picture.width - 1), std::clamp(y + dy, 0, picture.height - 1)}});
 }
 
 std::string no_pixel(C) { return "no pixel is inspected"; }
-void copy_pixel(C c) { ImGui::SetClipboardText(pixel_as_text(c, *c.chosen.pixel).c_str()); }
+void copy_pixel(C c) { ImGui::SetClipboardText(pixel_as_text(c, *c.view_state.pixel).c_str()); }
 
-bool has_region(C c) { return c.chosen.region.has_value(); }
+bool has_region(C c) { return c.view_state.region.has_value(); }
 
 void whole_region(C c)
 {
   const job::Picture& picture = *c.comparing.source();
-  c.push(command::SelectRegion{c.chosen.region ? std::nullopt : std::optional(PixelRegion{{0, 0}, {picture.width, picture.height}})});
+  c.push(command::SelectRegion{c.view_state.region ? std::nullopt : std::optional(PixelRegion{{0, 0}, {picture.width, picture.height}})});
 }
 
 } // namespace

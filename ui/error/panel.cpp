@@ -49,7 +49,7 @@ std::string shown_metric(const Context& context)
 {
   const std::vector<std::string> all = all_metrics(context);
   const auto there = [&](const std::string& metric) { return std::find(all.begin(), all.end(), metric) != all.end(); };
-  if (there(context.chosen.error_metric)) return context.chosen.error_metric;
+  if (there(context.view_state.error_metric)) return context.view_state.error_metric;
   if (const auto history = context.run.error_history(); history && there(measure::error_column_of(history->error_column).metric))
     return measure::error_column_of(history->error_column).metric;
   return all.empty() ? std::string() : all.front();

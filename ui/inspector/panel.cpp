@@ -122,7 +122,7 @@ void InspectorPanel::draw(const Context& context)
 
 void InspectorPanel::draw_pixel(const Context& context)
 {
-  const auto& pixel = context.chosen.pixel;
+  const auto& pixel = context.view_state.pixel;
   ImGui::SeparatorText(pixel ? fmt::format("Pixel ({}, {})", (*pixel)[0], (*pixel)[1]).c_str() : "Pixel");
   if (!pixel) {
     draw_wrapped(colour::quiet_text, "Alt and a click on the picture takes a pixel, or I the one in the middle; the arrow keys move it.");
@@ -146,8 +146,8 @@ void InspectorPanel::draw_pixel(const Context& context)
 void InspectorPanel::draw_neighbours(const Context& context)
 {
   const HeldPicture picture = enlarged(context);
-  const ViewSettings& view_settings = context.chosen.view_settings;
-  const std::array<int, 2> pixel = *context.chosen.pixel;
+  const ViewSettings& view_settings = context.view_state.view_settings;
+  const std::array<int, 2> pixel = *context.view_state.pixel;
   const double white = context.preset() ? context.preset()->white : 1;
   Neighbours& n = neighbours_;
   constexpr int across = 2 * reach + 1;
@@ -180,7 +180,7 @@ void InspectorPanel::draw_neighbours(const Context& context)
 void InspectorPanel::draw_spectrum(const Context& context)
 {
   const auto& spectrum = context.run.spectrum();
-  if (!spectrum || spectrum->pixel != *context.chosen.pixel) return;
+  if (!spectrum || spectrum->pixel != *context.view_state.pixel) return;
   if (!spectrum->why_not.empty()) return offer_spectra(context, *spectrum);
   static const std::vector<double> nm = wavelengths();
   const std::vector<double> total = total_radiance(*spectrum);
@@ -217,7 +217,7 @@ void InspectorPanel::offer_spectra(const Context& context, const job::PixelSpect
 void InspectorPanel::draw_region(const Context& context)
 {
   const HeldPicture picture = context.comparing.picture();
-  const auto& chosen = context.chosen.region;
+  const auto& chosen = context.view_state.region;
   const auto region = chosen && picture.owner ? cut_to(*chosen, picture.pixels.width, picture.pixels.height) : std::nullopt;
   ImGui::SeparatorText(region ? fmt::format("Region {} x {} at ({}, {})", region->to[0] - region->from[0], region->to[1] - region->from[1],
                                             region->from[0], region->from[1])

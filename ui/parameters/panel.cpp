@@ -102,7 +102,7 @@ void ParametersPanel::draw(const Context& context)
 
 void ParametersPanel::carry_out(const Context& context)
 {
-  for (Asked& asked : std::exchange(asked_, {})) {
+  for (PendingEdit& asked : std::exchange(asked_, {})) {
     if (auto edited = draft_.edit(asked.pointer, std::move(asked.value)))
       context.push(command::Edit{std::move(asked.label), *std::move(edited), asked.live ? gestures_.number() : 0, asked.live});
     else if (!asked.live)

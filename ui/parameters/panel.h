@@ -23,7 +23,7 @@ private:
   using Problems = std::map<std::string, Problem>;
 
   /// An edit that a widget asks for; made once everything is drawn, as what is drawn is the draft.
-  struct Asked {
+  struct PendingEdit {
     std::string label, pointer;
     Json value;
     bool live = false;
@@ -76,7 +76,7 @@ private:
   Draft draft_;
   std::string search_;
   bool only_changed_ = false;
-  std::vector<Asked> asked_;
+  std::vector<PendingEdit> asked_;
   bool let_go_ = false;         ///< a drag ended in this frame
   std::string number_typed_;    ///< the number that is a text field in place of one to drag,
   bool number_focused_ = false; ///< and has the keyboard

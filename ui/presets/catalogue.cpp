@@ -27,13 +27,13 @@ std::int64_t time_of(const fs::path& file)
   return ::stat(file.c_str(), &status) == 0 ? status.st_mtime : 0;
 }
 
-std::vector<Need> needs_of(const preset::Preset& preset)
+std::vector<RequiredFile> needs_of(const preset::Preset& preset)
 {
   std::vector<std::string> names;
   for (auto& [pointer, name] : preset::file_names(preset))
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
   const FileFinder finder(fs::path(preset.source).parent_path());
-  std::vector<Need> needs;
+  std::vector<RequiredFile> needs;
   for (std::string& name : names) {
     bool there = true;
     try {

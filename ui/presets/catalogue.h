@@ -17,7 +17,7 @@
 namespace nephroid::ui {
 
 /// A file that a preset names.
-struct Need {
+struct RequiredFile {
   std::string name;
   bool there = true;
 };
@@ -33,7 +33,7 @@ struct CatalogueEntry {
   std::array<int, 2> resolution{0, 0};
   std::string stop; ///< "64 passes"
   std::size_t runs = 1, frames = 1;
-  std::vector<Need> needs;
+  std::vector<RequiredFile> needs;
 };
 
 struct CatalogueFilter {

@@ -188,7 +188,7 @@ void PresetsPanel::draw_details(const Context& context)
   if (entry->runs > 1) what += fmt::format(", a sweep of {}", counted(entry->runs, "run"));
   draw_wrapped(colour::quiet_text, what);
   if (entry->needs.empty()) draw_wrapped(colour::quiet_text, "Needs no other file");
-  for (const Need& need : entry->needs)
+  for (const RequiredFile& need : entry->needs)
     draw_wrapped(need.there ? colour::quiet_text : colour::error, "Needs " + need.name + (need.there ? "" : ", which is not there"));
   draw_wrapped(colour::quiet_text, entry->file.string());
 }

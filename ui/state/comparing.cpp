@@ -50,7 +50,7 @@ const job::Layer* find_layer(const std::vector<job::Layer>& layers, const std::s
   return found == layers.end() ? nullptr : &*found;
 }
 
-std::shared_ptr<const ShownMetrics> measured(const HeldPicture& picture, const HeldPicture& other, measure::Which which)
+std::shared_ptr<const ShownMetrics> measured(const HeldPicture& picture, const HeldPicture& other, measure::MetricSet which)
 {
   auto metrics = std::make_shared<ShownMetrics>();
   metrics->picture = picture;
@@ -215,7 +215,7 @@ void Comparing::update_metrics(TaskQueue::Clock::time_point now)
     all_metrics_.forget(tasks_);
   }
   measured_ = picture.owner, measured_against_ = other.owner;
-  const auto want = [&](NewestResult<ShownMetrics>& metrics, measure::Which which) {
+  const auto want = [&](NewestResult<ShownMetrics>& metrics, measure::MetricSet which) {
     const auto& newest = metrics.newest();
     const bool same_other = newest && newest->other.owner == other.owner, same_picture = newest && newest->picture.owner == picture.owner;
     metrics.want(
@@ -225,8 +225,8 @@ void Comparing::update_metrics(TaskQueue::Clock::time_point now)
                                    : Request::other,
         [picture, other, which] { return measured(picture, other, which); }, now);
   };
-  want(metrics_, measure::Which::quick);
-  if (now - measured_since_ >= stays) want(all_metrics_, measure::Which::full);
+  want(metrics_, measure::MetricSet::quick);
+  if (now - measured_since_ >= stays) want(all_metrics_, measure::MetricSet::full);
 }
 
 void Comparing::update_map(TaskQueue::Clock::time_point now)

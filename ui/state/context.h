@@ -19,7 +19,7 @@
 namespace nephroid::ui {
 
 /// What a person chose to see. Nothing here needs a new run.
-struct Chosen {
+struct ViewState {
   ViewSettings view_settings;
   std::string error_metric;                     ///< to be plotted; empty: the run's own. Not every run has it.
   std::optional<std::array<int, 2>> pixel;      ///< that is inspected: column and row; may lie outside of the picture
@@ -30,14 +30,14 @@ struct Chosen {
   Handles handles;
   command::Nudged nudged;          ///< the newest
   std::vector<Bookmark> bookmarks; ///< of cameras
-  bool operator==(const Chosen&) const = default;
+  bool operator==(const ViewState&) const = default;
 };
 
 struct Context {
   const UndoStack* edits; ///< the preset that is edited, with its history; null before one is opened
   const RunInHand& run;
   const Comparing& comparing;
-  const Chosen& chosen;
+  const ViewState& view_state;
   const Settings& settings;
   bool has_earlier_session; ///< that could be reopened
   Commands& commands;
@@ -48,7 +48,7 @@ struct Context {
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits ? &edits->current() : nullptr; }
   /// What is selected of it.
-  Selection selection() const { return in_preset(chosen.selection, preset()); }
+  Selection selection() const { return in_preset(view_state.selection, preset()); }
   /// Its engine. Where a preset is open.
   std::string engine() const { return std::string(edits->current().settings.engine()); }
   void push(Command command) const { commands.push_back(std::move(command)); }
@@ -57,7 +57,7 @@ struct Context {
   {
     for (auto c = commands.rbegin(); c != commands.rend(); ++c)
       if (const auto* set = std::get_if<command::SetViewSettings>(&*c)) return set->view_settings;
-    return chosen.view_settings;
+    return view_state.view_settings;
   }
   void note(std::string line) const { push(command::Report{std::move(line), false}); }
   /// The preset as change(preset) makes it; gesture and live as in command::Edit. Where a preset is open.

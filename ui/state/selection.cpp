@@ -118,7 +118,7 @@ preset::Dispersion load_dispersion(const std::string& file, const std::string& p
   const std::filesystem::path path = std::filesystem::absolute(file, ignored);
   dispersion.file = !file.empty() && is_there(path) ? path.string() : file;
   const FileFinder finder(std::filesystem::path(preset_source).parent_path());
-  optics::sample_n(scene::make_curve(dispersion, finder, file.empty() ? "load dispersion" : file), optics::Outside::automatic);
+  optics::sample_n(scene::make_curve(dispersion, finder, file.empty() ? "load dispersion" : file), optics::Extrapolation::automatic);
   return dispersion;
 }
 

@@ -43,8 +43,8 @@ std::string unit_word(const preset::Preset& preset);
 std::string pointer_of(const Selection& selection);
 
 /// The wanted name, or the first of "NAME 2", "NAME 3", ... that is not taken(). pattern: of those, for fmt.
-template <class Taken>
-std::string untaken_name(const std::string& wanted, Taken taken, const char* pattern = "{} {}")
+template <class PictureEdit>
+std::string untaken_name(const std::string& wanted, PictureEdit taken, const char* pattern = "{} {}")
 {
   std::string name = wanted;
   for (int number = 2; taken(name); ++number) name = fmt::format(fmt::runtime(pattern), wanted, number);

@@ -191,7 +191,7 @@ std::string SessionText::of(const Session& session)
     Json patch = before ? Json::diff(before->json, json) : Json();
     return used.emplace_back(std::make_shared<const Known>(Known{preset, before_preset, std::move(json), std::move(patch)}));
   };
-  const ViewSettings& view_settings = session.chosen.view_settings;
+  const ViewSettings& view_settings = session.view_state.view_settings;
   Json text{{"version", session_version},
             {"closed", session.closed},
             {"look",
@@ -200,14 +200,14 @@ std::string SessionText::of(const Session& session)
               {"fit", view_settings.fit},
               {"zoom", view_settings.zoom},
               {"centre", view_settings.centre}}},
-            {"error_metric", session.chosen.error_metric},
-            {"material", session.chosen.material}};
+            {"error_metric", session.view_state.error_metric},
+            {"material", session.view_state.material}};
   if (view_settings.false_colour) text["look"]["false_colour"] = {view_settings.false_colour->low, view_settings.false_colour->high};
   text["pins"] = Json::array();
   for (const Session::Pin& pin : session.pins)
     text["pins"].push_back({{"folder", pin.folder}, {"name", pin.name}, {"colour", pin.colour}, {"shown", pin.shown}});
   text["bookmarks"] = Json::array();
-  for (const auto& [name, camera] : session.chosen.bookmarks)
+  for (const auto& [name, camera] : session.view_state.bookmarks)
     text["bookmarks"].push_back({{"name", name},
                                  {"position", camera.position},
                                  {"target", camera.target},
@@ -246,13 +246,13 @@ Session parse_session(const std::string& text, const std::string& source)
   return read_session(text, source, [](const Json& value) {
     Session session;
     session.closed = value.at("closed").get<bool>();
-    session.chosen.view_settings = read_view_settings(value.at("look"));
-    session.chosen.error_metric = value.at("error_metric").get<std::string>();
-    session.chosen.material = value.at("material").get<std::string>();
+    session.view_state.view_settings = read_view_settings(value.at("look"));
+    session.view_state.error_metric = value.at("error_metric").get<std::string>();
+    session.view_state.material = value.at("material").get<std::string>();
     for (const Json& pin : value.at("pins"))
       session.pins.push_back({pin.at("folder").get<std::string>(), pin.at("name").get<std::string>(),
                               static_cast<std::uint32_t>(within(pin.at("colour"), 0, 0xffffffff)), pin.at("shown").get<bool>()});
-    for (const Json& bookmark : value.at("bookmarks")) session.chosen.bookmarks.push_back(read_bookmark(bookmark));
+    for (const Json& bookmark : value.at("bookmarks")) session.view_state.bookmarks.push_back(read_bookmark(bookmark));
     if (value.contains("edits")) session.edits = read_edits(value.at("edits"));
     return session;
   });

@@ -21,7 +21,7 @@ struct Session {
 
   bool closed = false; ///< by a person; else the window ended in some other way
   std::optional<UndoStack::State> edits;
-  Chosen chosen;
+  ViewState view_state;
   std::vector<Pin> pins;
   bool operator==(const Session&) const = default;
 };

@@ -166,7 +166,7 @@ SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const
 {
   Work work;
   if (workbench.edits()) work.session.edits = workbench.edits()->state();
-  work.session.chosen = workbench.chosen();
+  work.session.view_state = workbench.view_state();
   work.pins = workbench.comparing().pinned().all();
   for (const PinnedRun& run : work.pins)
     work.session.pins.push_back({run.is_run() ? fmt::format("pin-{}", run.id) : run.file.string(), run.name, run.colour, run.shown});

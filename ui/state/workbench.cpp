@@ -78,11 +78,11 @@ void Workbench::let_go()
   messages_.dismiss_errors_until(last_before_commands_);
   comparing_.forget();
   run_.forget();
-  chosen_.view_settings = ViewSettings{};
-  chosen_.region.reset();
-  chosen_.lines.clear();
+  view_state_.view_settings = ViewSettings{};
+  view_state_.region.reset();
+  view_state_.lines.clear();
   carry_out(command::InspectPixel{});
-  chosen_.selection = {};
+  view_state_.selection = {};
   tasks_.forget(meshes_);
   close_question();
 }
@@ -98,8 +98,8 @@ void Workbench::restore(Session session, const std::filesystem::path& folder)
 {
   let_go();
   if (session.edits) edits_.emplace(std::move(*session.edits));
-  chosen_ = std::move(session.chosen);
-  run_.watch_spectrum(chosen_.pixel);
+  view_state_ = std::move(session.view_state);
+  run_.watch_spectrum(view_state_.pixel);
   for (const Session::Pin& pin : session.pins) this->pin(folder / pin.folder, pin);
   if (edits_) run_.start(*edits_);
 }
@@ -194,29 +194,29 @@ void Workbench::carry_out(const command::Cancel&)
 
 void Workbench::carry_out(const command::SetViewSettings& c)
 {
-  chosen_.view_settings = c.view_settings;
-  if (c.view_settings.false_colour) chosen_.view_settings.false_colour = valid_range(*c.view_settings.false_colour);
-  chosen_.view_settings.exposure_stops = std::clamp(c.view_settings.exposure_stops, -20.0, 20.0);
+  view_state_.view_settings = c.view_settings;
+  if (c.view_settings.false_colour) view_state_.view_settings.false_colour = valid_range(*c.view_settings.false_colour);
+  view_state_.view_settings.exposure_stops = std::clamp(c.view_settings.exposure_stops, -20.0, 20.0);
 }
 
 void Workbench::carry_out(const command::InspectPixel& c)
 {
-  chosen_.pixel = c.pixel;
-  if (c.pixel) chosen_.selection = {}; // the arrow keys are the pixel's now
+  view_state_.pixel = c.pixel;
+  if (c.pixel) view_state_.selection = {}; // the arrow keys are the pixel's now
   run_.watch_spectrum(c.pixel);
 }
 
 void Workbench::carry_out(const command::SelectRegion& c)
 {
-  chosen_.region = c.region;
-  if (c.region && (c.region->from[0] >= c.region->to[0] || c.region->from[1] >= c.region->to[1])) chosen_.region.reset();
+  view_state_.region = c.region;
+  if (c.region && (c.region->from[0] >= c.region->to[0] || c.region->from[1] >= c.region->to[1])) view_state_.region.reset();
 }
 
 void Workbench::carry_out(const command::LoadDispersion& c)
 {
   if (!edits_) throw bad_input(c.file, "is dispersion data, and no preset is open", {}, "open a preset with glass, then load it");
   preset::Preset edited = edits_->current();
-  const std::string material = shown_dielectric(edited, chosen_.material);
+  const std::string material = shown_dielectric(edited, view_state_.material);
   if (material.empty())
     throw bad_input(c.file, "is dispersion data, and this preset has no dielectric", "expected a material of type \"dielectric\"");
   edited.scene.materials.at(material).dispersion = load_dispersion(c.file, edited.source);
@@ -244,7 +244,7 @@ void Workbench::carry_out(const command::SavePreset& c)
   add_recent(c.file);
   const std::filesystem::path thumbnail = thumbnail_of(c.file, recent_.thumbnails());
   if (run_.snapshot() && !thumbnail.empty() && preset::shipped_name(c.file).empty()) // those of shipped presets are shipped
-    save(thumbnail, [thumbnail, picture = run_.snapshot()->picture, exposure_stops = chosen_.view_settings.exposure_stops] {
+    save(thumbnail, [thumbnail, picture = run_.snapshot()->picture, exposure_stops = view_state_.view_settings.exposure_stops] {
       try {
         write_thumbnail(thumbnail, *picture, exposure_stops);
         return std::string();
@@ -267,11 +267,11 @@ PictureToSave Workbench::shown_picture() const
 {
   const Comparison& comparison = comparing_.comparison();
   const double white = edits_ ? edits_->current().white : 1;
-  if (comparison.flip) return {comparing_.other_picture(), {}, chosen_.view_settings, white, comparing_.why_not()};
-  if (!comparison.difference) return {comparing_.picture(), {}, chosen_.view_settings, white, comparing_.why_no_picture()};
+  if (comparison.flip) return {comparing_.other_picture(), {}, view_state_.view_settings, white, comparing_.why_not()};
+  if (!comparison.difference) return {comparing_.picture(), {}, view_state_.view_settings, white, comparing_.why_no_picture()};
   const auto& map = comparing_.difference();
   if (!map) return {{}, {}, {}, 1, "the difference is not computed yet"};
-  return {map->of.picture, map, chosen_.view_settings, white, map->error};
+  return {map->of.picture, map, view_state_.view_settings, white, map->error};
 }
 
 void Workbench::carry_out(const command::OpenResult& c)

@@ -39,7 +39,7 @@ public:
   /// For one frame; what is asked for goes to `commands`.
   Context context(Commands& commands)
   {
-    return {edits(), run_, comparing_, chosen_, settings_, has_earlier_session_, commands, recent_, sweep_, tasks_};
+    return {edits(), run_, comparing_, view_state_, settings_, has_earlier_session_, commands, recent_, sweep_, tasks_};
   }
   /// Null before a preset is opened.
   const preset::Preset* preset() const { return edits_ ? &edits_->current() : nullptr; }
@@ -47,7 +47,7 @@ public:
   const RunInHand& run() const { return run_; }
   const Comparing& comparing() const { return comparing_; }
   const SweepQueue& sweep() const { return sweep_; }
-  const Chosen& chosen() const { return chosen_; }
+  const ViewState& view_state() const { return view_state_; }
   const RecentFiles& recent() const { return recent_; }
   const std::vector<Message>& messages() const { return messages_.all(); }
   TaskQueue& tasks() { return tasks_; }
@@ -92,19 +92,19 @@ private:
   void carry_out(const command::SetViewSettings& c);
   void carry_out(const command::InspectPixel& c);
   void carry_out(const command::SelectRegion& c);
-  void carry_out(const command::ShowLines& c) { chosen_.lines = c.lines; }
+  void carry_out(const command::ShowLines& c) { view_state_.lines = c.lines; }
   void carry_out(const command::PinFile& c)
   {
     close_question();
     pin(c.path, {}, c.show);
   }
-  void carry_out(const command::ChooseMetric& c) { chosen_.error_metric = c.metric; }
-  void carry_out(const command::ChooseMaterial& c) { chosen_.material = c.material; }
+  void carry_out(const command::ChooseMetric& c) { view_state_.error_metric = c.metric; }
+  void carry_out(const command::ChooseMaterial& c) { view_state_.material = c.material; }
   void carry_out(const command::LoadDispersion& c);
   void carry_out(const command::Select& c);
-  void carry_out(const command::SetHandles& c) { chosen_.handles = c.handles; }
-  void carry_out(const command::Nudged& c) { chosen_.nudged = c; }
-  void carry_out(const command::SetBookmarks& c) { chosen_.bookmarks = c.bookmarks; }
+  void carry_out(const command::SetHandles& c) { view_state_.handles = c.handles; }
+  void carry_out(const command::Nudged& c) { view_state_.nudged = c; }
+  void carry_out(const command::SetBookmarks& c) { view_state_.bookmarks = c.bookmarks; }
   void carry_out(const command::Ask& c);
   void carry_out(const command::SavePreset& c);
   void carry_out(const command::SavePicture& c);
@@ -171,7 +171,7 @@ private:
   TaskKey writes_, pins_, meshes_, recent_writes_;
   Comparing comparing_{run_, tasks_};
   SweepQueue sweep_;
-  Chosen chosen_;
+  ViewState view_state_;
   FileWatch watch_;
   std::shared_ptr<const preset::Preset> watched_, watched_from_; ///< whose files are watched, and as it was opened
   RecentFiles recent_;

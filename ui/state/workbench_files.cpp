@@ -128,15 +128,15 @@ void Workbench::take_picture(const std::string& file)
 {
   if (!is_there(file)) throw bad_input(file, "there is no such picture");
   preset::Preset edited = edits_->current();
-  engine::Taken taken = engine::engine_of(edited).take_picture(edited, file);
+  engine::PictureEdit taken = engine::engine_of(edited).take_picture(edited, file);
   carry_out(command::Edit{std::move(taken.edit), std::move(edited)});
   messages_.note(std::move(taken.note));
 }
 
 void Workbench::carry_out(const command::Select& c)
 {
-  chosen_.selection = in_preset(c.selection, preset());
-  chosen_.nudged.at_s = command::Nudged{}.at_s; // another thing is another entry to undo
+  view_state_.selection = in_preset(c.selection, preset());
+  view_state_.nudged.at_s = command::Nudged{}.at_s; // another thing is another entry to undo
 }
 
 void Workbench::add_object(const DroppedMesh& mesh)

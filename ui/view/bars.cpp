@@ -61,7 +61,7 @@ void draw_range_choice(const Context& context, const LuminanceRange& shown, Widg
     view_settings.false_colour = range;
     context.push(command::SetViewSettings{view_settings});
   };
-  bool automatic = !context.chosen.view_settings.false_colour;
+  bool automatic = !context.view_state.view_settings.false_colour;
   if (places.checkbox("Auto range", &automatic, "auto range",
                       "From where 1 % of the pixels are below to where 99.9 % are; else as typed here."))
     set(automatic ? std::nullopt : std::optional(shown));
@@ -150,7 +150,7 @@ void draw_toggle(const char* name, bool on, const Context& context)
 
 void draw_bookmarks(const Context& context, WidgetPlaces& places)
 {
-  std::vector<Bookmark> bookmarks = context.chosen.bookmarks;
+  std::vector<Bookmark> bookmarks = context.view_state.bookmarks;
   std::optional<std::size_t> deleted;
   bool changed = false;
   for (std::size_t i = 0; i < bookmarks.size(); ++i) {
@@ -232,7 +232,7 @@ void draw_scale(const Canvas& canvas, const std::string& title, std::span<const 
 
 void go_to_bookmark(const Context& context, std::size_t index)
 {
-  const auto& [name, bookmarked] = context.chosen.bookmarks.at(index);
+  const auto& [name, bookmarked] = context.view_state.bookmarks.at(index);
   const preset::Camera& now = context.preset()->scene.camera;
   preset::Camera camera = bookmarked;
   camera.resolution = now.resolution; // going somewhere does not change the picture's size

@@ -60,7 +60,7 @@ glm::dvec3 factors_of(const GizmoFrame& frame, const glm::dmat3& axes, int handl
   return factors;
 }
 
-ImGuizmo::OPERATION operation(Tool tool, const Grip& grip)
+ImGuizmo::OPERATION operation(Tool tool, const GizmoTarget& grip)
 {
   if (tool == Tool::move) return ImGuizmo::TRANSLATE;
   if (tool == Tool::turn) return ImGuizmo::ROTATE;
@@ -153,7 +153,7 @@ void draw_light(const Context& context, const Pinhole& pinhole, std::size_t inde
 {
   const preset::Preset& preset = *context.preset();
   const preset::Light& light = preset.scene.lights[index];
-  const Grip grip = *grip_of(preset, {Selection::Kind::light, index}, nullptr);
+  const GizmoTarget grip = *grip_of(preset, {Selection::Kind::light, index}, nullptr);
   const auto at = pinhole.to_screen(grip.at);
   if (!at) return;
   const ImU32 colour = selected ? marked : lamp;
@@ -194,10 +194,10 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
   prepare(canvas);
   places_.reset();
   const Selection selection = context.selection();
-  if (drag_ && (drag_->selection != selection || !context.chosen.handles.shown)) end_drag(context);
+  if (drag_ && (drag_->selection != selection || !context.view_state.handles.shown)) end_drag(context);
   const auto grip = context.preset() ? grip_of(*context.preset(), selection, context.run.seen<ViewedScene>().get()) : std::nullopt;
-  if (!grip || !context.chosen.handles.shown) return;
-  const Handles& handles = context.chosen.handles;
+  if (!grip || !context.view_state.handles.shown) return;
+  const Handles& handles = context.view_state.handles;
   const GizmoFrame frame = drag_ ? drag_->frame : GizmoFrame{pinhole, grip->at, pinhole.depth(grip->at)};
   if (!(frame.unit > 0)) return; // behind the camera
   const Tool tool = drag_ ? drag_->tool : usable_tool(*grip, handles.tool);
@@ -310,11 +310,11 @@ void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std:
 {
   const preset::Preset* preset = context.preset();
   pinhole_.reset();
-  if (preset && has_scene(*preset)) pinhole_ = make_pinhole(preset->scene.camera, place(context.chosen.view_settings, canvas, picture), picture);
+  if (preset && has_scene(*preset)) pinhole_ = make_pinhole(preset->scene.camera, place(context.view_state.view_settings, canvas, picture), picture);
   const Selection selection = context.selection();
   const Comparison& comparison = context.comparing.comparison();
   const bool other_picture = comparison.flip || comparison.shown != 0; // nothing over that: one looks at it to compare
-  if (pinhole_ && context.chosen.handles.shown && !other_picture) {
+  if (pinhole_ && context.view_state.handles.shown && !other_picture) {
     if (selection.kind == Selection::Kind::object) draw_object_box(context, *pinhole_, selection.index);
     for (std::size_t i = 0; i < preset->scene.lights.size(); ++i)
       draw_light(context, *pinhole_, i, selection == Selection{Selection::Kind::light, i});
@@ -327,7 +327,7 @@ void SceneOverlay::draw(const Context& context, const Canvas& canvas, const std:
 
 void SceneOverlay::click(const Context& context, const Point& at) const
 {
-  if (!pinhole_ || !context.chosen.handles.shown) return;
+  if (!pinhole_ || !context.view_state.handles.shown) return;
   Selection selection;
   double nearest = grab_radius * scale();
   for (std::size_t i = 0; i < context.preset()->scene.lights.size(); ++i) {

@@ -38,7 +38,7 @@ private:
   struct Drag {
     preset::Preset start, newest; ///< newest: what was pushed last
     Selection selection;
-    Grip grip;
+    GizmoTarget grip;
     GizmoFrame frame;
     Handles::Tool tool = Handles::Tool::move;
     bool own_axes = false;

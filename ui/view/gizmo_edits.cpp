@@ -46,9 +46,9 @@ glm::dvec3 light_place(const preset::Preset& preset, const preset::Light& light)
   return to_vector(camera.target) - reach * unit_or(to_vector(light.direction), {0, -1, 0});
 }
 
-Grip light_grip(const preset::Preset& preset, const preset::Light& light)
+GizmoTarget light_grip(const preset::Preset& preset, const preset::Light& light)
 {
-  Grip grip;
+  GizmoTarget grip;
   grip.at = light_place(preset, light);
   grip.moves = light.type != LightType::directional;
   grip.turns = light.type != LightType::point;
@@ -99,12 +99,12 @@ glm::dmat3 sorted_axes(const glm::dmat3& axes, const glm::dmat3& directions)
 
 } // namespace
 
-std::optional<Grip> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen)
+std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen)
 {
   switch (in_preset(selection, &preset).kind) {
   case Kind::object: {
     const preset::Transform& transform = preset.scene.objects[selection.index].transform;
-    Grip grip;
+    GizmoTarget grip;
     grip.pivot = pivot_of(seen, preset, selection.index);
     grip.at = to_vector(transform.translate) + scaled(transform, grip.pivot);
     grip.axes = scene::rotation(transform.rotate_deg);
@@ -115,7 +115,7 @@ std::optional<Grip> grip_of(const preset::Preset& preset, const Selection& selec
   case Kind::light:
     return light_grip(preset, preset.scene.lights[selection.index]);
   case Kind::camera: {
-    Grip grip;
+    GizmoTarget grip;
     grip.at = to_vector(preset.scene.camera.target);
     return grip;
   }
@@ -125,7 +125,7 @@ std::optional<Grip> grip_of(const preset::Preset& preset, const Selection& selec
   return std::nullopt;
 }
 
-Handles::Tool usable_tool(const Grip& grip, Handles::Tool wanted)
+Handles::Tool usable_tool(const GizmoTarget& grip, Handles::Tool wanted)
 {
   const bool scales = std::ranges::any_of(grip.scales, [](bool b) { return b; });
   if ((wanted == Handles::Tool::turn && grip.turns) || (wanted == Handles::Tool::scale && scales)) return wanted;
@@ -176,7 +176,7 @@ void move(preset::Preset& preset, const Selection& selection, const glm::dvec3& 
   if (selection.kind == Kind::camera) shift(scene.camera.target);
 }
 
-void turn(preset::Preset& preset, const Selection& selection, const Grip& grip, const glm::dvec3& axis, double degrees)
+void turn(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& axis, double degrees)
 {
   if (degrees == 0) return;
   const glm::dmat3 rotation = about(axis, degrees);
@@ -191,7 +191,7 @@ void turn(preset::Preset& preset, const Selection& selection, const Grip& grip, 
   }
 }
 
-void stretch(preset::Preset& preset, const Selection& selection, const Grip& grip, const glm::dvec3& factors)
+void stretch(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& factors)
 {
   const auto multiply = [](double& value, double factor) {
     if (factor != 1) value = with_digits(value * factor, 4);

@@ -10,7 +10,7 @@
 namespace nephroid::ui {
 
 /// Where what is selected can be taken hold of, in the preset's coordinates, and what can be done with it.
-struct Grip {
+struct GizmoTarget {
   glm::dvec3 at{0};
   glm::dmat3 axes{1}; ///< its own axes as columns, a rotation
   bool moves = true, turns = false;
@@ -18,9 +18,9 @@ struct Grip {
   glm::dvec3 pivot{0};          ///< of an object: pivot_of
 };
 /// Nothing where nothing is selected. seen: may be null.
-std::optional<Grip> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen);
+std::optional<GizmoTarget> grip_of(const preset::Preset& preset, const Selection& selection, const ViewedScene* seen);
 /// The tool that is asked for where the grip allows it; else the first that it allows. A point light is moved only.
-Handles::Tool usable_tool(const Grip& grip, Handles::Tool wanted);
+Handles::Tool usable_tool(const GizmoTarget& grip, Handles::Tool wanted);
 
 /// The angles of preset::Transform that are this rotation, those nearest to `near` of all that are: scene::rotation of them gives it again.
 preset::Vec3 angles_of(const glm::dmat3& rotation, const preset::Vec3& near);
@@ -29,9 +29,9 @@ preset::Vec3 angles_of(const glm::dmat3& rotation, const preset::Vec3& near);
 /// axis that it moved along; negative: whole tens, hundreds.
 void move(preset::Preset& preset, const Selection& selection, const glm::dvec3& by, int decimals);
 /// Counter-clockwise about a unit axis through the grip.
-void turn(preset::Preset& preset, const Selection& selection, const Grip& grip, const glm::dvec3& axis, double degrees);
+void turn(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& axis, double degrees);
 /// Multiplies its extent along its own axes.
-void stretch(preset::Preset& preset, const Selection& selection, const Grip& grip, const glm::dvec3& factors);
+void stretch(preset::Preset& preset, const Selection& selection, const GizmoTarget& grip, const glm::dvec3& factors);
 
 /// Lengths for a thing so far in front of the camera: a step of the snapping, 1, 2 or 5 times a power of ten, about a twentieth of the
 /// distance; and decimals that are well below a pixel.

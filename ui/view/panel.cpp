@@ -35,24 +35,24 @@ void draw_frame(const Placement& placement, const std::array<int, 2>& from, cons
 }
 
 /// The pixel and the rectangle that the panel Inspector is about.
-void draw_marks(const Chosen& chosen, const Placement& placement, const std::array<int, 2>& picture)
+void draw_marks(const ViewState& view_state, const Placement& placement, const std::array<int, 2>& picture)
 {
-  if (const auto& region = chosen.region) {
+  if (const auto& region = view_state.region) {
     const std::array to{std::min(region->to[0], picture[0]), std::min(region->to[1], picture[1])};
     if (region->from[0] < to[0] && region->from[1] < to[1]) draw_frame(placement, region->from, to, colour::accent, 0);
   }
-  if (const auto& pixel = chosen.pixel; pixel && (*pixel)[0] < picture[0] && (*pixel)[1] < picture[1])
+  if (const auto& pixel = view_state.pixel; pixel && (*pixel)[0] < picture[0] && (*pixel)[1] < picture[1])
     draw_frame(placement, *pixel, {(*pixel)[0] + 1, (*pixel)[1] + 1}, colour::on_dark, 5);
 }
 
 /// What a panel shows in the picture (command::ShowLines), with a dark rim.
 void draw_lines(const Context& context, const Placement& placement, const std::array<int, 2>& picture)
 {
-  if (context.chosen.lines.empty() || !context.preset() || !context.comparing.shows_run_alone()) return;
+  if (context.view_state.lines.empty() || !context.preset() || !context.comparing.shows_run_alone()) return;
   const auto pinhole = make_pinhole(engine::camera_of(*context.preset()), placement, picture);
   if (!pinhole) return;
   for (const auto& [colour, width] : {std::pair{colour::outline, 3.0f}, std::pair{colour::accent, 1.5f}})
-    for (const std::vector<preset::Vec3>& line : context.chosen.lines)
+    for (const std::vector<preset::Vec3>& line : context.view_state.lines)
       for (std::size_t i = 1; i < line.size(); ++i) {
         const auto from = pinhole->to_screen(to_vector(line[i - 1])), to = pinhole->to_screen(to_vector(line[i]));
         if (from && to) ImGui::GetWindowDrawList()->AddLine(vec(*from), vec(*to), colour, width * scale());
@@ -88,8 +88,8 @@ void ViewPanel::draw(const Context& context)
   if (!held_ || pressed_) on_second_ = seen_second_.size[0] > 0 && mouse()[0] >= seen_second_.corner[0];
   take_line(context, area);
   const double white = context.preset() ? context.preset()->white : 1;
-  refresh(first_, shown_, context.chosen.view_settings, white);
-  refresh(second_, beside_, context.chosen.view_settings, white, shown_.rgb.empty() ? nullptr : &first_.tone);
+  refresh(first_, shown_, context.view_state.view_settings, white);
+  refresh(second_, beside_, context.view_state.view_settings, white, shown_.rgb.empty() ? nullptr : &first_.tone);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();
   draw_list->PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
   draw_list->AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, colour::surround);
@@ -156,22 +156,22 @@ void ViewPanel::draw_toolbar(const Context& context)
 }
 
 /// like: the tone of the picture that it is held against; null: its own.
-void ViewPanel::refresh(Toned& toned, const ShownPicture& shown, const ViewSettings& view_settings, double white, const Tone* like)
+void ViewPanel::refresh(ToneMappedPicture& tone_mapped, const ShownPicture& shown, const ViewSettings& view_settings, double white, const Tone* like)
 {
   if (!shown.owner) return;
   const bool is_linear = !shown.rgb.empty();
-  const bool same_settings = view_settings.exposure_stops == toned.view_settings.exposure_stops && view_settings.tone == toned.view_settings.tone &&
-                         view_settings.false_colour == toned.view_settings.false_colour && white == toned.white && (!like || *like == toned.tone);
-  if (shown.owner == toned.owner && (!is_linear || same_settings)) return;
-  const std::span<unsigned char> bytes = toned.texture.edit(shown.size[0], shown.size[1]);
+  const bool same_settings = view_settings.exposure_stops == tone_mapped.view_settings.exposure_stops && view_settings.tone == tone_mapped.view_settings.tone &&
+                         view_settings.false_colour == tone_mapped.view_settings.false_colour && white == tone_mapped.white && (!like || *like == tone_mapped.tone);
+  if (shown.owner == tone_mapped.owner && (!is_linear || same_settings)) return;
+  const std::span<unsigned char> bytes = tone_mapped.texture.edit(shown.size[0], shown.size[1]);
   if (is_linear) {
-    toned.tone = like ? *like : tone_of(view_settings, white, shown.rgb);
-    toned_pixels(shown.rgb, toned.tone, bytes);
+    tone_mapped.tone = like ? *like : tone_of(view_settings, white, shown.rgb);
+    toned_pixels(shown.rgb, tone_mapped.tone, bytes);
   } else
     std::copy(shown.rgba.begin(), shown.rgba.end(), bytes.begin());
-  toned.owner = shown.owner;
-  toned.view_settings = view_settings;
-  toned.white = white;
+  tone_mapped.owner = shown.owner;
+  tone_mapped.view_settings = view_settings;
+  tone_mapped.white = white;
 }
 
 void ViewPanel::draw_pictures(const Context& context)
@@ -208,12 +208,12 @@ void ViewPanel::draw_pictures(const Context& context)
   });
 }
 
-void ViewPanel::draw_picture(const ShownPicture& shown, const Toned& toned, const Placement& placement) const
+void ViewPanel::draw_picture(const ShownPicture& shown, const ToneMappedPicture& tone_mapped, const Placement& placement) const
 {
   if (!shown.owner) return;
   const ImVec2 from = vec(placement.to_screen({0, 0}));
   const ImVec2 to = vec(placement.to_screen({static_cast<double>(shown.size[0]), static_cast<double>(shown.size[1])}));
-  toned.texture.draw(from, to, placement.scale >= pixel_squares_from);
+  tone_mapped.texture.draw(from, to, placement.scale >= pixel_squares_from);
   ImGui::GetWindowDrawList()->AddRect({from.x - 1, from.y - 1}, {to.x + 1, to.y + 1}, colour::frame);
 }
 
@@ -221,7 +221,7 @@ void ViewPanel::draw_picture(const ShownPicture& shown, const Toned& toned, cons
 void ViewPanel::draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen, const Placement& placement) const
 {
   if (!shown.hint.empty()) draw_hint(colour::quiet_on_dark, vec(seen.corner), vec(seen.size), shown.hint);
-  draw_marks(context.chosen, placement, shown.size);
+  draw_marks(context.view_state, placement, shown.size);
   const double pad = 0.4 * static_cast<double>(ImGui::GetFontSize());
   if (!shown.label.empty()) draw_overlay(vec({seen.corner[0] + pad, seen.corner[1] + pad}), shown.label);
 }
@@ -253,7 +253,7 @@ void ViewPanel::own_keys(const Context& context)
 {
   ImGui::SetItemKeyOwner(ImGuiMod_Alt);
   if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
-  if (!context.chosen.pixel && context.selection() == Selection{}) {
+  if (!context.view_state.pixel && context.selection() == Selection{}) {
     if (context.comparing.pinned().all().empty() || ImGui::GetIO().NavVisible) return;
     for (const ImGuiKey key : {ImGuiKey_UpArrow, ImGuiKey_DownArrow}) ImGui::SetKeyOwner(key, ImGui::GetItemID());
     return;
@@ -291,7 +291,7 @@ void ViewPanel::start_drag(const Context& context)
   drag_from_ = pointer();
   moved_ = false;
   camera_at_start_ = engine::camera_of(*context.preset());
-  settings_at_start_ = context.chosen.view_settings;
+  settings_at_start_ = context.view_state.view_settings;
   gestures_.begin();
 }
 

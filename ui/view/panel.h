@@ -51,7 +51,7 @@ private:
   enum class Drag { none, orbit, pan, dolly, move_picture, mark };
 
   /// A picture as a texture.
-  struct Toned {
+  struct ToneMappedPicture {
     PictureTexture texture;
     std::shared_ptr<const void> owner; ///< what it shows,
     Tone tone;                         ///< with this tone;
@@ -63,10 +63,10 @@ private:
   void lay_out(const Context& context, const Canvas& area);
   void take_line(const Context& context, const Canvas& area);
   void draw_pictures(const Context& context);
-  void draw_picture(const ShownPicture& shown, const Toned& toned, const Placement& placement) const;
+  void draw_picture(const ShownPicture& shown, const ToneMappedPicture& tone_mapped, const Placement& placement) const;
   void draw_marked(const Context& context, const ShownPicture& shown, const Canvas& seen, const Placement& placement) const;
   void draw_pixel_value(const Context& context, const Canvas& area);
-  Placement placed(const Context& context) const { return place(context.chosen.view_settings, canvas_, shown_.size); }
+  Placement placed(const Context& context) const { return place(context.view_state.view_settings, canvas_, shown_.size); }
   Point pointer() const;
   std::optional<std::array<int, 2>> pointed_pixel(const Context& context) const;
   void own_keys(const Context& context);
@@ -76,13 +76,13 @@ private:
   void move_camera(const Context& context, const Point& delta) const;
   void mark(const Context& context);
   void use_wheel(const Context& context);
-  static void refresh(Toned& toned, const ShownPicture& shown, const ViewSettings& view_settings, double white, const Tone* like = nullptr);
+  static void refresh(ToneMappedPicture& tone_mapped, const ShownPicture& shown, const ViewSettings& view_settings, double white, const Tone* like = nullptr);
 
   Canvas canvas_;                   ///< that the first picture is placed in
   Canvas seen_first_, seen_second_; ///< the parts of the panel in which the two are seen
   double shift_ = 0;                ///< as shift()
   ShownPicture shown_, beside_;     ///< of the frame that is being drawn
-  Toned first_, second_;
+  ToneMappedPicture first_, second_;
   std::string pixel_value_; ///< as drawn last
 
   SceneOverlay overlay_;

@@ -21,7 +21,7 @@ struct PlateOptions {
 };
 
 /// As wide and high as its mesh.
-inverse::Placed body_of(const fs::path& run, const scene::Mesh& mesh)
+inverse::PlatePart body_of(const fs::path& run, const scene::Mesh& mesh)
 {
   glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
   for (const glm::vec3& p : mesh.positions) {
@@ -37,7 +37,7 @@ void make_plate(const PlateOptions& options)
   if (!obj && options.output.extension() != ".stl")
     throw bad_input(options.output.string(), "has no ending that says how to write it", "expected a file .stl or .obj");
   std::vector<scene::Mesh> meshes;
-  std::vector<inverse::Placed> bodies;
+  std::vector<inverse::PlatePart> bodies;
   std::uint64_t triangles = 0;
   double area = 0;
   for (const fs::path& run : options.runs) {
@@ -54,7 +54,7 @@ void make_plate(const PlateOptions& options)
   }
   const glm::dvec2 plate(options.size[0], options.size[1]);
   if (const auto left_over = inverse::put_on_shelves(plate, options.gap, bodies)) {
-    const inverse::Placed& body = bodies[*left_over];
+    const inverse::PlatePart& body = bodies[*left_over];
     throw bad_input(
         body.name,
         fmt::format("number {} of {}, {:.6g} x {:.6g} mm, finds no place on a plate of {:.6g} x {:.6g} mm with gaps of {:.6g} mm",
@@ -68,7 +68,7 @@ void make_plate(const PlateOptions& options)
   write_file_whole(options.output, [&](ByteSink& to) { (obj ? inverse::write_obj : inverse::write_stl)(mesh, to); });
   const fs::path page = fs::path(options.output).replace_extension(".svg");
   write_file_whole(page, inverse::plate_page(plate, bodies));
-  for (const inverse::Placed& body : bodies)
+  for (const inverse::PlatePart& body : bodies)
     fmt::print("{}: {:.6g} x {:.6g} mm, its middle at ({:.6g}, {:.6g}) mm\n", body.name, body.size.x, body.size.y, body.middle.x,
                body.middle.y);
   fmt::print("{:.0f} % of the plate; {} and {}\n", 100 * area / (plate.x * plate.y), options.output.string(), page.string());

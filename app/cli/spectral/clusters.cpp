@@ -33,7 +33,7 @@ struct ClusterOptions {
 /// A curve and how it is to be clustered where the command line does not say.
 struct Task {
   optics::DispersionCurve curve;
-  optics::Outside outside = optics::Outside::automatic;
+  optics::Extrapolation outside = optics::Extrapolation::automatic;
   double threshold_deg = photons::Settings{}.threshold_deg;
   ClusterMethod method = ClusterMethod::optimal;
 };

@@ -88,7 +88,7 @@ void write_stl(const scene::Mesh& mesh, ByteSink& to)
   }
 }
 
-std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material, const Making& making)
+std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material, const Manufacturing& making)
 {
   std::string page = "# For the workshop\n\n| what | figure |\n|---|---|\n";
   const auto row = [&](const char* what, const std::string& figure) {

@@ -16,12 +16,12 @@ void write_obj(const scene::Mesh& mesh, ByteSink& to); ///< Wavefront
 void write_stl(const scene::Mesh& mesh, ByteSink& to); ///< binary
 
 /// How it is made, in millimetres; empty: not said.
-struct Making {
+struct Manufacturing {
   std::optional<double> tool_radius, layer;
 };
 
 /// The figures as a page of Markdown. material: in words, with its index.
-std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material, const Making& making = {});
+std::string workshop_page(const Layout& layout, const Solid& solid, const std::string& material, const Manufacturing& making = {});
 
 /// JSON: the grid's size, what a facet's numbers are, and a line of them a facet, row by row from the top.
 void write_facets(const Layout& layout, const Solid& solid, ByteSink& to);

@@ -7,7 +7,7 @@
 
 namespace nephroid::inverse {
 
-std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<Placed>& bodies)
+std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<PlatePart>& bodies)
 {
   constexpr double slack = 1e-6; // of sums that are rounded
   std::vector<std::size_t> order(bodies.size());
@@ -15,7 +15,7 @@ std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, s
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return bodies[a].size.y > bodies[b].size.y; });
   double left = gap, top = gap, shelf = 0; // from the plate's upper left corner
   for (const std::size_t i : order) {
-    Placed& body = bodies[i];
+    PlatePart& body = bodies[i];
     if (left + body.size.x + gap > plate.x + slack && shelf > 0) {
       top += shelf + gap;
       left = gap;
@@ -29,7 +29,7 @@ std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, s
   return std::nullopt;
 }
 
-scene::Mesh plate_mesh(const std::vector<scene::Mesh>& meshes, const std::vector<Placed>& places)
+scene::Mesh plate_mesh(const std::vector<scene::Mesh>& meshes, const std::vector<PlatePart>& places)
 {
   scene::Mesh plate;
   for (std::size_t i = 0; i < meshes.size(); ++i) {

@@ -13,7 +13,7 @@
 namespace nephroid::inverse {
 
 /// A rectangle on a plate, in millimetres from the plate's middle; y is up.
-struct Placed {
+struct PlatePart {
   std::string name;
   glm::dvec2 size{0}, middle{0};
 };
@@ -21,9 +21,9 @@ struct Placed {
 /// Puts rectangles on shelves, the highest first, from the plate's upper edge down (next-fit decreasing height: Coffman, Garey, Johnson and
 /// Tarjan 1980). `gap` is left between them and at the plate's rim. Nothing is turned. Returns the first that found no place, if any:
 /// its index.
-std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<Placed>& bodies);
+std::optional<std::size_t> put_on_shelves(const glm::dvec2& plate, double gap, std::vector<PlatePart>& bodies);
 
 /// All as one mesh: each moved to its place, with its front (its highest z) at z = 0. A body stays as closed as it is.
-scene::Mesh plate_mesh(const std::vector<scene::Mesh>& meshes, const std::vector<Placed>& places);
+scene::Mesh plate_mesh(const std::vector<scene::Mesh>& meshes, const std::vector<PlatePart>& places);
 
 } // namespace nephroid::inverse

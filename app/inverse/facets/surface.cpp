@@ -37,11 +37,11 @@ Grid parts_along_rows(const Grid& values)
 }
 
 /// Four bells at t of the way from one node to the next, with their derivatives.
-struct Bells {
+struct BSplineBasis {
   std::array<double, 4> value, first, second;
 };
 
-Bells bells_at(double t)
+BSplineBasis bells_at(double t)
 {
   const double u = 1 - t;
   return {{u * u * u / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * u * u + 3 * u * u * u) / 6, t * t * t / 6},
@@ -57,7 +57,7 @@ Spline::At Spline::at(const glm::dvec2& p) const
 {
   const auto piece = [](double at, Eigen::Index parts) { return std::clamp(static_cast<Eigen::Index>(at), Eigen::Index{0}, parts - 4); };
   const Eigen::Index x = piece(p.x, parts_.cols()), y = piece(p.y, parts_.rows());
-  const Bells across = bells_at(p.x - static_cast<double>(x)), down = bells_at(p.y - static_cast<double>(y));
+  const BSplineBasis across = bells_at(p.x - static_cast<double>(x)), down = bells_at(p.y - static_cast<double>(y));
   At result;
   for (Eigen::Index k = 0; k < 4; ++k) {
     const double* const row = &parts_(y + k, x);

@@ -12,18 +12,18 @@ namespace nephroid::inverse {
 namespace {
 
 /// The cells along one axis that a pixel covers, and how much of each: parts[i] of cell first + i.
-struct Covered {
+struct CellCoverage {
   int first = 0;
   std::vector<double> parts;
 };
 
 /// Of each pixel in the order of the file, which lie in the middle of the cells. pixel: its side in cells.
-std::vector<Covered> covered_by(int pixels, bool backwards, double pixel, int cells)
+std::vector<CellCoverage> covered_by(int pixels, bool backwards, double pixel, int cells)
 {
-  std::vector<Covered> all;
+  std::vector<CellCoverage> all;
   for (int i = 0; i < pixels; ++i) {
     const double low = (backwards ? pixels - 1 - i : i) * pixel + (cells - pixels * pixel) / 2, high = low + pixel;
-    Covered covered{std::max(0, static_cast<int>(std::floor(low))), {}};
+    CellCoverage covered{std::max(0, static_cast<int>(std::floor(low))), {}};
     for (int c = covered.first; c < cells && c < high; ++c)
       covered.parts.push_back(std::max(0.0, std::min(high, c + 1.0) - std::max(low, static_cast<double>(c))));
     all.push_back(std::move(covered));
@@ -32,15 +32,15 @@ std::vector<Covered> covered_by(int pixels, bool backwards, double pixel, int ce
 }
 
 /// Where the pixels of a file lie on the receiver. Exif's orientations 5 to 8 have the file's rows upright.
-struct Placed {
+struct FileRaster {
   bool turned = false;
   glm::dvec2 half{0};                 ///< of the whole picture's size, millimetres
-  std::vector<Covered> columns, rows; ///< of the file; turned: its columns cover rows of cells
+  std::vector<CellCoverage> columns, rows; ///< of the file; turned: its columns cover rows of cells
 };
 
-Placed place_of(const Layout& layout, const glm::ivec2& file, int orientation)
+FileRaster place_of(const Layout& layout, const glm::ivec2& file, int orientation)
 {
-  Placed place;
+  FileRaster place;
   place.turned = orientation >= 5;
   const glm::dvec2 upright = place.turned ? glm::dvec2(file.y, file.x) : glm::dvec2(file);
   const double millimetres = std::min(layout.receiver.x / upright.x, layout.receiver.y / upright.y);
@@ -103,7 +103,7 @@ Target photograph(const std::filesystem::path& file, const Picture& picture, con
 {
   const Luminance luminance;
   Target target(layout.cell_count());
-  std::optional<Placed> place;
+  std::optional<FileRaster> place;
   double low = std::numeric_limits<double>::infinity(), high = 0;
   std::vector<double> along; // of a row of the file, a value a cell
   image::read_bands(file, [&](const image::Band& band) {
@@ -118,11 +118,11 @@ Target photograph(const std::filesystem::path& file, const Picture& picture, con
         low = std::min(low, value);
         high = std::max(high, value);
         const double toned = picture.tone == 1 ? value : std::pow(value, picture.tone);
-        const Covered& covered = place->columns[static_cast<std::size_t>(u)];
+        const CellCoverage& covered = place->columns[static_cast<std::size_t>(u)];
         for (std::size_t i = 0; i < covered.parts.size(); ++i)
           along[static_cast<std::size_t>(covered.first) + i] += covered.parts[i] * toned;
       }
-      const Covered& covered = place->rows[static_cast<std::size_t>(band.first) + static_cast<std::size_t>(v)];
+      const CellCoverage& covered = place->rows[static_cast<std::size_t>(band.first) + static_cast<std::size_t>(v)];
       for (std::size_t k = 0; k < covered.parts.size(); ++k)
         for (std::size_t i = 0; i < along.size(); ++i) {
           const int across = covered.first + static_cast<int>(k), cell = static_cast<int>(i);

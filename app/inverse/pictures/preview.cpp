@@ -35,11 +35,11 @@ struct Smear {
 };
 
 /// Along both axes; what it is off them is left out.
-struct Smears {
+struct AxisBlur {
   Smear x, y;
 };
 
-Smears smears_of(const Layout& layout, std::size_t receiver)
+AxisBlur smears_of(const Layout& layout, std::size_t receiver)
 {
   const glm::ivec2 at = layout.cells / 2;
   const glm::dvec2 to = layout.middle_of_cell(index_at(at.x, at.y, layout.cells.x));
@@ -53,7 +53,7 @@ Smears smears_of(const Layout& layout, std::size_t receiver)
   const glm::dvec2 slope = nearest_reachable((to + layout.offset(receiver) - layout.middle(facet)) / layout.distances[receiver], layout.n,
                                              layout.sines_on(facet));
   const Footprint print = footprint(layout, facet, slope, receiver);
-  Smears smears{{print.x0 - at.x, std::vector<double>(static_cast<std::size_t>(print.columns))},
+  AxisBlur smears{{print.x0 - at.x, std::vector<double>(static_cast<std::size_t>(print.columns))},
                 {print.y0 - at.y, std::vector<double>(static_cast<std::size_t>(print.rows))}};
   for (int k = 0; k < print.rows; ++k)
     for (int i = 0; i < print.columns; ++i) {
@@ -82,7 +82,7 @@ std::vector<double> smeared(const std::vector<double>& light, const glm::ivec2& 
   return result;
 }
 
-std::vector<double> smeared(const std::vector<double>& light, const glm::ivec2& cells, const Smears& smears, bool back)
+std::vector<double> smeared(const std::vector<double>& light, const glm::ivec2& cells, const AxisBlur& smears, bool back)
 {
   return smeared(smeared(light, cells, smears.x, 0, back), cells, smears.y, 1, back);
 }
@@ -133,7 +133,7 @@ Layout blurring_layout(const Settings& settings, Layout layout)
 
 Target best_possible(const Layout& layout, const Target& target, std::size_t receiver)
 {
-  const Smears smears = smears_of(layout, receiver);
+  const AxisBlur smears = smears_of(layout, receiver);
   const std::size_t taps = smears.x.parts.size() + smears.y.parts.size();
   if (taps <= 2) return target;
   // Light may be aimed beside the receiver: a rim of cells, in which nothing is wanted or minded.
@@ -196,7 +196,7 @@ std::vector<std::string> picture_notes(const Settings& settings, const Layout& l
   for (std::size_t j = 0; j < targets.size(); ++j) {
     const bool photograph = settings.receivers[j].picture.type == Picture::Type::file;
     if (const double off = cost_of(targets[j], best[j], 1).rel_l2; off > far_off) {
-      const Smears smears = smears_of(blurring_layout(settings, layout), j);
+      const AxisBlur smears = smears_of(blurring_layout(settings, layout), j);
       notes.push_back(
           fmt::format("picture {} comes hardly closer than {:.2f} (rel_l2): a facet's light is {:.3g} x {:.3g} mm wide there, a "
                       "cell {:.3g} x {:.3g} mm; choose fewer cells, more facets or less blur",

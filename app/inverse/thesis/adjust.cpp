@@ -33,14 +33,14 @@ std::vector<Source> sources(int cells, double scale, double shift)
 }
 
 /// What a missing cell's light meets at one other receiver.
-struct Met {
+struct OtherReceiver {
   double farthest = 0; ///< cells
   std::uint64_t on = 0, beside = 0;
 };
 
 class Projection {
 public:
-  Projection(const Layout& layout, const std::vector<Aim>& aims, const std::vector<Margin>& margins)
+  Projection(const Layout& layout, const std::vector<SamplingTarget>& aims, const std::vector<Margin>& margins)
       : layout_(layout), aims_(aims), margins_(margins)
   {
     for (const std::size_t facet : some_facets(layout, facets_a_side)) {
@@ -50,10 +50,10 @@ public:
   }
 
   /// Light through a lit cell of picture `a`. Empty: the cell is not missing.
-  std::vector<Met> through(std::size_t a, std::size_t cell) const
+  std::vector<OtherReceiver> through(std::size_t a, std::size_t cell) const
   {
     const glm::dvec2 to = layout_.middle_of_cell(cell);
-    std::vector<Met> met(aims_.size());
+    std::vector<OtherReceiver> met(aims_.size());
     for (std::size_t i = 0; i < facets_.size(); ++i) {
       const glm::dvec2 from = facets_[i], slope = (to - from) / aims_[a].distance;
       if (!reachable(slope, layout_.n, sines_[i], layout_.steepest)) continue;
@@ -73,7 +73,7 @@ public:
 
 private:
   const Layout& layout_;
-  const std::vector<Aim>& aims_;
+  const std::vector<SamplingTarget>& aims_;
   const std::vector<Margin>& margins_;
   std::vector<glm::dvec2> facets_, sines_; ///< middles, and the light that falls there
 };
@@ -145,18 +145,18 @@ std::vector<double> extended(const std::vector<double>& picture, const Margin& m
   return made;
 }
 
-std::vector<Need> needs_of(const Layout& layout, const std::vector<Aim>& aims, const std::vector<Margin>& margins)
+std::vector<MissingLight> needs_of(const Layout& layout, const std::vector<SamplingTarget>& aims, const std::vector<Margin>& margins)
 {
   const Projection projection(layout, aims, margins);
-  std::vector<Need> needs(aims.size());
-  std::vector<Met> sums(aims.size());
+  std::vector<MissingLight> needs(aims.size());
+  std::vector<OtherReceiver> sums(aims.size());
   for (std::size_t a = 0; a < aims.size(); ++a) {
-    std::vector<std::vector<Met>> found(layout.cell_count());
+    std::vector<std::vector<OtherReceiver>> found(layout.cell_count());
     for_ranges(found.size(), 16, [&](std::size_t, Range range) {
       for (std::size_t cell = range.begin; cell < range.end; ++cell)
         if (margins[a].distance[cell] == 0) found[cell] = projection.through(a, cell);
     });
-    for (const std::vector<Met>& met : found) {
+    for (const std::vector<OtherReceiver>& met : found) {
       if (!met.empty()) ++needs[a].missing;
       for (std::size_t b = 0; b < met.size(); ++b) {
         sums[b].farthest = std::max(sums[b].farthest, met[b].farthest);

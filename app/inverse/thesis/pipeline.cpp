@@ -21,10 +21,10 @@ double sum_of(const std::vector<double>& values) { return std::accumulate(values
 
 } // namespace
 
-Annealer::Annealer(std::vector<Knob> knobs, const Cooling& cooling, double cost)
+Annealer::Annealer(std::vector<AnnealedParameter> knobs, const Cooling& cooling, double cost)
     : knobs_(std::move(knobs)), cooling_(cooling), cost_(cost), lowest_cost_(cost)
 {
-  for (const Knob& knob : knobs_) values_.push_back(knob.start);
+  for (const AnnealedParameter& knob : knobs_) values_.push_back(knob.start);
   lowest_ = values_;
 }
 
@@ -34,7 +34,7 @@ const std::vector<double>& Annealer::propose(std::mt19937_64 random)
 {
   proposed_ = values_;
   for (std::size_t i = 0; i < knobs_.size(); ++i) {
-    const Knob& knob = knobs_[i];
+    const AnnealedParameter& knob = knobs_[i];
     proposed_[i] = std::clamp(proposed_[i] + knob.step * (2 * uniform(random) - 1), knob.low, knob.high);
   }
   chance_ = uniform(random);
@@ -89,7 +89,7 @@ void Pipeline::adjust(const std::vector<double>& values)
   wanted_.clear();
   pictures_.clear();
   for (std::size_t j = 0; j < targets_.size(); ++j) {
-    Aim aim{layout_.distances[j], {}, 0};
+    SamplingTarget aim{layout_.distances[j], {}, 0};
     if (settings_.adjust == Thesis::Adjust::convergence) {
       // Straight lines from the border of the object bound the light.
       aim.picture = moved(targets_[j], layout_, 1 + (values[0] - 1) * aim.distance / layout_.distances.back(), {0, 0});
@@ -107,8 +107,8 @@ void Pipeline::adjust(const std::vector<double>& values)
 std::optional<Annealer> Pipeline::annealer() const
 {
   const Thesis& s = settings_;
-  const auto about = [](double start, double step, double limit) { return Knob{start, step, start - limit, start + limit}; };
-  std::vector<Knob> knobs;
+  const auto about = [](double start, double step, double limit) { return AnnealedParameter{start, step, start - limit, start + limit}; };
+  std::vector<AnnealedParameter> knobs;
   if (stage_ == Stage::annealing_1 && s.adjust == Thesis::Adjust::convergence) knobs = {about(1, s.size_step, s.size_limit)};
   if (stage_ == Stage::annealing_1 && s.adjust == Thesis::Adjust::each)
     for (std::size_t j = 0; j < targets_.size(); ++j)
@@ -125,7 +125,7 @@ std::optional<Annealer> Pipeline::annealer() const
 void Pipeline::find_needs()
 {
   margins_.clear();
-  for (const Aim& aim : wanted_) margins_.push_back(margin_of(aim.picture, layout_));
+  for (const SamplingTarget& aim : wanted_) margins_.push_back(margin_of(aim.picture, layout_));
   needs_ = needs_of(layout_, wanted_, margins_);
 }
 
@@ -145,9 +145,9 @@ void Pipeline::correct(const std::vector<std::vector<double>>& received)
 }
 
 /// What light is aimed at: the pictures, extended and overshot (5.4).
-std::vector<Aim> Pipeline::aims() const
+std::vector<SamplingTarget> Pipeline::aims() const
 {
-  std::vector<Aim> all = wanted_;
+  std::vector<SamplingTarget> all = wanted_;
   for (std::size_t j = 0; j < all.size(); ++j) {
     all[j].picture = pictures_[j];
     if (needs_.empty()) continue;
@@ -171,7 +171,7 @@ void Pipeline::advance()
   if (trial_->finished()) end_trial();
 }
 
-double Pipeline::cost_of_drawn(const Drawn& drawn) const
+double Pipeline::cost_of_drawn(const TrialResult& drawn) const
 {
   double sum = 0;
   for (std::size_t j = 0; j < wanted_.size(); ++j) {
@@ -181,7 +181,7 @@ double Pipeline::cost_of_drawn(const Drawn& drawn) const
   return sum / static_cast<double>(wanted_.size());
 }
 
-void Pipeline::keep(Drawn drawn, double cost)
+void Pipeline::keep(TrialResult drawn, double cost)
 {
   best_ = std::move(drawn);
   lowest_ = cost;
@@ -190,7 +190,7 @@ void Pipeline::keep(Drawn drawn, double cost)
 
 void Pipeline::end_trial()
 {
-  Drawn drawn = trial_->drawn();
+  TrialResult drawn = trial_->drawn();
   trial_.reset();
   ++trials_;
   const double cost = cost_of_drawn(drawn), temperature = annealer_ ? annealer_->temperature() : 0;

@@ -33,18 +33,18 @@ std::vector<double> extended(const std::vector<double>& picture, const Margin& m
 
 /// Of one picture: what others' missing cells ask of it. A cell is missing where light from no facet that goes through its middle finds
 /// all other pictures lit.
-struct Need {
+struct MissingLight {
   std::size_t missing = 0; ///< its own cells
   double extension = 0;    ///< s: how far from its lit cells the light of others' missing cells meets dark ones, at most; in cells
   double overshoot = 0;    ///< e: the part of that light that is beside its receiver
 };
 
 /// Of each aim. A lattice of facets speaks for all of them: every one up to 128 a side.
-std::vector<Need> needs_of(const Layout& layout, const std::vector<Aim>& aims, const std::vector<Margin>& margins);
+std::vector<MissingLight> needs_of(const Layout& layout, const std::vector<SamplingTarget>& aims, const std::vector<Margin>& margins);
 
 // Simulated annealing of a few numbers, as the thesis has it: cycles of moves at one temperature, each cycle colder.
 
-struct Knob {
+struct AnnealedParameter {
   double start = 0, step = 0.1; ///< a move changes it by up to `step` either way
   double low = 0, high = 1;     ///< it stays between
 };
@@ -58,7 +58,7 @@ struct Cooling {
 class Annealer {
 public:
   /// cost: at the knobs' starts.
-  Annealer(std::vector<Knob> knobs, const Cooling& cooling, double cost);
+  Annealer(std::vector<AnnealedParameter> knobs, const Cooling& cooling, double cost);
 
   bool finished() const { return done_ >= std::int64_t{cooling_.cycles} * cooling_.moves; }
   double temperature() const; ///< of the move in hand
@@ -76,7 +76,7 @@ public:
   void state(State& state);
 
 private:
-  std::vector<Knob> knobs_;
+  std::vector<AnnealedParameter> knobs_;
   Cooling cooling_;
   std::vector<double> proposed_;
   double chance_ = 0; ///< 0..1, of the proposal
@@ -130,18 +130,18 @@ private:
   void adjust(const std::vector<double>& values);
   void find_needs();
   void correct(const std::vector<std::vector<double>>& received);
-  std::vector<Aim> aims() const;
-  double cost_of_drawn(const Drawn& drawn) const;
-  void keep(Drawn drawn, double cost);
+  std::vector<SamplingTarget> aims() const;
+  double cost_of_drawn(const TrialResult& drawn) const;
+  void keep(TrialResult drawn, double cost);
 
   const Layout& layout_;
   const std::vector<Target>& targets_;
   Thesis settings_;
   std::uint64_t seed_;
   // What is tried.
-  std::vector<Aim> wanted_;     ///< D: in the first annealing the proposal, later what that found
+  std::vector<SamplingTarget> wanted_;     ///< D: in the first annealing the proposal, later what that found
   std::vector<Margin> margins_; ///< of wanted_, from the second annealing on
-  std::vector<Need> needs_;     ///< the same
+  std::vector<MissingLight> needs_;     ///< the same
   std::optional<Trial> trial_;
   // The state.
   Stage stage_ = Stage::sampling;
@@ -151,7 +151,7 @@ private:
   std::vector<double> reach_;                 ///< k and o of all pictures: the proposal, later what the second annealing found
   std::vector<std::vector<double>> pictures_; ///< what light is aimed at, before it is extended: wanted_, later corrected
   std::int64_t rounds_ = 0, idle_ = 0;        ///< of the correction: done, and without a gain
-  Drawn best_;
+  TrialResult best_;
   double lowest_ = 1;                  ///< its cost
   std::array<double, stages> costs_{}; ///< each stage's lowest
   std::vector<Row> history_;

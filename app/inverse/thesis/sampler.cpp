@@ -32,11 +32,11 @@ struct Sampler::Lattice {
   glm::dvec2 sines{0};      ///< of the light on the facet
 };
 
-Sampler::Sampler(const Layout& layout, const std::vector<Aim>& aims, const Thesis& settings)
+Sampler::Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings)
     : layout_(layout), directions_(settings.directions), sampling_(settings.sampling)
 {
   const int columns = layout.cells.x + 2, rows = layout.cells.y + 2;
-  for (const Aim& aim : aims) {
+  for (const SamplingTarget& aim : aims) {
     distances_.push_back(aim.distance);
     std::vector<double> padded(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), aim.beside);
     std::vector<char> lit_columns(static_cast<std::size_t>(columns), aim.beside > 0),
@@ -171,7 +171,7 @@ std::vector<glm::dvec2> flat_slopes(const Layout& layout)
   return slopes;
 }
 
-Trial::Trial(const Layout& layout, const std::vector<Aim>& aims, const Thesis& settings, std::uint64_t seed)
+Trial::Trial(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings, std::uint64_t seed)
     : layout_(layout), settings_(settings), seed_(seed), sampler_(layout, aims, settings),
       counts_(aims.size(), std::vector<std::uint32_t>(layout.cell_count())), slopes_(flat_slopes(layout))
 {
@@ -198,9 +198,9 @@ void Trial::advance()
   next_ += count;
 }
 
-Drawn Trial::drawn() const
+TrialResult Trial::drawn() const
 {
-  Drawn drawn{{}, slopes_, dark_};
+  TrialResult drawn{{}, slopes_, dark_};
   for (const auto& counts : counts_) {
     drawn.light.emplace_back(counts.begin(), counts.end());
     for (double& light : drawn.light.back()) light /= settings_.draws;

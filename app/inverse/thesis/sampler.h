@@ -12,7 +12,7 @@
 namespace nephroid::inverse {
 
 /// What light is aimed at over one distance.
-struct Aim {
+struct SamplingTarget {
   double distance = 100;
   std::vector<double> picture; ///< of each cell, at most 1: a probability up to a factor that all have
   double beside = 0;           ///< the same of light that misses the receiver: h of (5.4)
@@ -27,7 +27,7 @@ struct Draws {
 /// lattice over all that lead to a receiver and that the index can bend by; one that misses all receivers has probability 0.
 class Sampler {
 public:
-  Sampler(const Layout& layout, const std::vector<Aim>& aims, const Thesis& settings);
+  Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings);
 
   /// So many independent slopes; none where every slope's product is 0.
   Draws draw(std::size_t facet, int count, std::mt19937_64& random) const;
@@ -49,7 +49,7 @@ private:
 };
 
 /// What came of a trial.
-struct Drawn {
+struct TrialResult {
   std::vector<std::vector<double>> light; ///< [receiver][cell]: mean of the draws, in facets
   std::vector<glm::dvec2> slopes;         ///< of each facet: its first draw; as if it were flat where it has none
   std::uint64_t dark = 0;                 ///< facets whose joint probability is 0 everywhere: they send light nowhere
@@ -61,13 +61,13 @@ std::vector<glm::dvec2> flat_slopes(const Layout& layout);
 class Trial {
 public:
   /// layout and settings outlive it. The same aims and seed give the same draws, on any number of threads.
-  Trial(const Layout& layout, const std::vector<Aim>& aims, const Thesis& settings, std::uint64_t seed);
+  Trial(const Layout& layout, const std::vector<SamplingTarget>& aims, const Thesis& settings, std::uint64_t seed);
 
   void advance(); ///< some facets
   bool finished() const { return next_ == layout_.facet_count(); }
   double fraction_done() const { return static_cast<double>(next_) / static_cast<double>(layout_.facet_count()); }
   std::size_t tried() const { return next_; } ///< facets
-  Drawn drawn() const;
+  TrialResult drawn() const;
 
   void state(State& state); ///< loaded into a trial of the same aims
 

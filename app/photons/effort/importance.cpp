@@ -135,7 +135,7 @@ std::string reason_for_nothing(bool lit, const std::vector<Surrounding>& surroun
   return geometry ? "the caustic objects see nothing that diffuses or mirrors light" : "no object diffuses or mirrors light";
 }
 
-WavelengthImportance importance_of_surroundings(bool geometry, const Whereabouts& where, std::span<const scene::Light> lights,
+WavelengthImportance importance_of_surroundings(bool geometry, const ImportanceGeometry& where, std::span<const scene::Light> lights,
                                                 std::span<const scene::Material> materials, const std::string& file)
 {
   if (!where.caustics) throw nothing_matters(file, "no object is of glass or a mirror");
@@ -169,7 +169,7 @@ Spectrum importance_of_radziszewski()
 }
 
 /// What the eye makes of the light alone, wherever it goes.
-Spectrum importance_of_light(const Whereabouts& where, std::span<const scene::Light> lights)
+Spectrum importance_of_light(const ImportanceGeometry& where, std::span<const scene::Light> lights)
 {
   const optics::ColourMatching& eye = optics::cie_1931();
   Spectrum u = sum_of(lights, where.anywhere);
@@ -199,12 +199,12 @@ std::vector<double> watts(std::span<const scene::Light> lights, const std::vecto
   return result;
 }
 
-Whereabouts whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh)
+ImportanceGeometry whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh)
 {
   const std::vector<int> throwers = caustic_objects(scene);
   std::vector<scene::Sphere> receivers;
   for (const int i : throwers) receivers.push_back(scene.objects[static_cast<std::size_t>(i)].bounds);
-  Whereabouts where;
+  ImportanceGeometry where;
   where.caustics = !throwers.empty();
   where.used = used_materials(scene);
   where.towards = parts_towards(scene, receivers);
@@ -219,7 +219,7 @@ WavelengthImportance wavelength_importance(const Settings& settings, const scene
   return wavelength_importance(settings, whereabouts(settings, scene, bvh), scene.lights, scene.materials, scene.source);
 }
 
-WavelengthImportance wavelength_importance(const Settings& settings, const Whereabouts& where, std::span<const scene::Light> lights,
+WavelengthImportance wavelength_importance(const Settings& settings, const ImportanceGeometry& where, std::span<const scene::Light> lights,
                                            std::span<const scene::Material> materials, const std::string& file)
 {
   using Effort = Settings::Effort;

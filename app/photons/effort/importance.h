@@ -31,18 +31,18 @@ struct WavelengthImportance {
 std::vector<int> caustic_objects(const scene::Scene& scene);
 
 /// What u hangs on of where things are: neither a light's spectrum or power nor the colour of a material changes it.
-struct Whereabouts {
+struct ImportanceGeometry {
   bool caustics = false;        ///< whether an object throws them
   std::vector<double> seen;     ///< [material]: ghat_i, by rays; empty where the settings ask for none
   std::vector<double> used;     ///< [material]: ghat_i without geometry: 1 where an object is of it and it diffuses or mirrors, else 0
   std::vector<double> towards;  ///< [light]: W towards the caustic objects of each W, or W m^-2, that it has
   std::vector<double> anywhere; ///< [light]: the same towards anything
-  bool operator==(const Whereabouts&) const = default;
+  bool operator==(const ImportanceGeometry&) const = default;
 };
 /// W of each light by one of the two vectors above.
 std::vector<double> watts(std::span<const scene::Light> lights, const std::vector<double>& parts);
 /// Traces rays for effort `importance` with geometry only; some milliseconds.
-Whereabouts whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh);
+ImportanceGeometry whereabouts(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh);
 
 /// u(lambda) of (4.15) for effort `importance`, of Radziszewski et al. for `radziszewski`, of the light alone for `power`,
 /// `variance` and `automatic` (what the eye makes of it, (X + Y + Z) / 3; 0 where no light has power), 1 everywhere for `equal` and
@@ -50,7 +50,7 @@ Whereabouts whereabouts(const Settings& settings, const scene::Scene& scene, con
 WavelengthImportance wavelength_importance(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh);
 /// The same in a fraction of a millisecond, for lights and materials as they are now; of the lights only the spectra count. file: for
 /// messages.
-WavelengthImportance wavelength_importance(const Settings& settings, const Whereabouts& where, std::span<const scene::Light> lights,
+WavelengthImportance wavelength_importance(const Settings& settings, const ImportanceGeometry& where, std::span<const scene::Light> lights,
                                            std::span<const scene::Material> materials, const std::string& file);
 
 /// Of each cluster (indices of wavelengths, none empty): the largest u in it or the mean.

@@ -29,7 +29,7 @@ struct ClusterRun {
 };
 
 /// The photons of an iteration of a cluster.
-struct Sender {
+struct ClusterPhotons {
   compute::Buffer<shared::DeviceEmitter> emitters; ///< one a light
   int emitter_count = 0;
   double photon_scale = 1; ///< quanta per W
@@ -202,7 +202,7 @@ private:
     return run;
   }
 
-  Sender make_sender(int cluster) const
+  ClusterPhotons make_sender(int cluster) const
   {
     const RunTables& t = world_.tables;
     const auto c = static_cast<std::size_t>(cluster);
@@ -222,7 +222,7 @@ private:
   void send_photons(std::int64_t pass, const tracing::PhotonSlice& slice)
   {
     const int cluster = std::min(at_.cluster, cluster_count() - 1);
-    const Sender& sender = senders_[static_cast<std::size_t>(cluster)];
+    const ClusterPhotons& sender = senders_[static_cast<std::size_t>(cluster)];
     const RunTables& t = world_.tables;
     const std::int64_t iteration = iterations_of(cluster, pass);
     world_.send(send_, slice, iteration,
@@ -285,7 +285,7 @@ private:
   PhotonMap map_;
   EyePaths eye_;
   compute::Kernel send_, gather_, start_, add_radiance_;
-  std::vector<Sender> senders_; ///< [cluster]
+  std::vector<ClusterPhotons> senders_; ///< [cluster]
   std::vector<ClusterRun> runs_;
   compute::Buffer<std::int64_t> unused_; ///< for what the photon kernel does not do here
   compute::Buffer<float> no_guide_;      ///< likewise

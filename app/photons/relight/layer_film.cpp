@@ -14,17 +14,17 @@ namespace nephroid::photons {
 namespace {
 
 /// How often a pixel sees a reflector; its own samples count more than all of its neighbours' together.
-struct Seen {
+struct ReflectorCount {
   int reflector = 0, count = 0;
 };
 
-void add_samples(const Survey& survey, int x, int y, int weight, std::vector<Seen>& list)
+void add_samples(const ReflectorSurvey& survey, int x, int y, int weight, std::vector<ReflectorCount>& list)
 {
   const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(survey.width) + static_cast<std::size_t>(x);
   const auto samples = static_cast<std::size_t>(survey.samples);
   for (const int reflector : survey.seen.subspan(pixel * samples, samples)) {
     if (reflector < 0) continue;
-    const auto seen = std::ranges::find_if(list, [&](const Seen& s) { return s.reflector == reflector; });
+    const auto seen = std::ranges::find_if(list, [&](const ReflectorCount& s) { return s.reflector == reflector; });
     if (seen == list.end())
       list.push_back({reflector, weight});
     else
@@ -33,17 +33,17 @@ void add_samples(const Survey& survey, int x, int y, int weight, std::vector<See
 }
 
 /// Of a pixel's own sample, where one of a neighbour's has 1.
-int own_weight(const Survey& survey) { return 1 + 8 * survey.samples; }
+int own_weight(const ReflectorSurvey& survey) { return 1 + 8 * survey.samples; }
 
 /// What a pixel sees, by falling count; of equal ones the smaller number first.
-void count_reflectors(const Survey& survey, int x, int y, std::vector<Seen>& list)
+void count_reflectors(const ReflectorSurvey& survey, int x, int y, std::vector<ReflectorCount>& list)
 {
   list.clear();
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx)
       if (x + dx >= 0 && x + dx < survey.width && y + dy >= 0 && y + dy < survey.height)
         add_samples(survey, x + dx, y + dy, dx == 0 && dy == 0 ? own_weight(survey) : 1, list);
-  std::ranges::sort(list, [](const Seen& a, const Seen& b) { return a.count != b.count ? a.count > b.count : a.reflector < b.reflector; });
+  std::ranges::sort(list, [](const ReflectorCount& a, const ReflectorCount& b) { return a.count != b.count ? a.count > b.count : a.reflector < b.reflector; });
 }
 
 constexpr std::size_t spare_cells = 8192; // small pictures may have edges everywhere
@@ -110,15 +110,15 @@ PlanPart plan_relighting(const PlanInput& input)
 
 } // namespace
 
-LayerCells make_layer_cells(const Survey& survey, std::size_t most, Unseen unseen)
+LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, EmptyPixel unseen)
 {
   const std::size_t pixels = static_cast<std::size_t>(survey.width) * static_cast<std::size_t>(survey.height);
-  std::vector<std::vector<Seen>> seen(pixels);
+  std::vector<std::vector<ReflectorCount>> seen(pixels);
   std::size_t longest = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
-    std::vector<Seen> list;
+    std::vector<ReflectorCount> list;
     count_reflectors(survey, static_cast<int>(i) % survey.width, static_cast<int>(i) / survey.width, list);
-    if (list.empty() && unseen == Unseen::a_cell && survey.reflector_count > 0) list.push_back({i > 0 ? seen[i - 1][0].reflector : 0, 0});
+    if (list.empty() && unseen == EmptyPixel::a_cell && survey.reflector_count > 0) list.push_back({i > 0 ? seen[i - 1][0].reflector : 0, 0});
     longest = std::max(longest, list.size());
     seen[i] = std::move(list);
   }
@@ -296,9 +296,9 @@ const Relighting& relighting_of(DeviceWorld& world, const scene::Scene& scene)
   compute::Kernel survey = compute::Program(world.context, "photons/relight_direct.cl", world.defines).kernel("survey");
   world.run(survey, pixels, 64, {{"camera", tables.camera}, {"seed", world.seed}, {"unbent", unbent}, {"bent", bent}});
   const std::vector<int> seen = unbent.read(), seen_bent = bent.read();
-  relighting.unbent = make_layer_cells({seen, width, height, SURVEY_PLACES, reflectors}, unbent_cells(tables.camera), Unseen::a_cell);
+  relighting.unbent = make_layer_cells({seen, width, height, SURVEY_PLACES, reflectors}, unbent_cells(tables.camera), EmptyPixel::a_cell);
   relighting.bent = make_layer_cells({seen_bent, width, height, SURVEY_PLACES * SURVEY_PATHS, reflectors},
-                                     bent_cells(tables.camera, tables.spheres), Unseen::no_cell);
+                                     bent_cells(tables.camera, tables.spheres), EmptyPixel::no_cell);
   return relighting;
 }
 

@@ -29,7 +29,7 @@ struct LayerCells {
 };
 
 /// What a survey saw.
-struct Survey {
+struct ReflectorSurvey {
   std::span<const int> seen; ///< [pixel][sample]: a reflector, -1: none
   int width = 0, height = 0;
   int samples = 0; ///< a pixel
@@ -39,8 +39,8 @@ struct Survey {
 /// A cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may be in the pixel beside.
 /// most: at most so many; then what pixels see least goes first. Unseen::a_cell: also a pixel that sees nothing has one, where there are
 /// reflectors at all (then `most` is at least the number of pixels).
-enum class Unseen { no_cell, a_cell };
-LayerCells make_layer_cells(const Survey& survey, std::size_t most, Unseen unseen);
+enum class EmptyPixel { no_cell, a_cell };
+LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, EmptyPixel unseen);
 
 /// The most that LayerCells::count() can be for so many cells.
 std::size_t padded_cells(std::size_t cells, int reflector_count);

@@ -69,9 +69,9 @@ Emitter emitter_of(const scene::Mesh& mesh, const glm::dmat4& to_world)
 
 double clamped_power(double watts) { return std::clamp(watts, 0.0, 1e9); }
 
-class Making {
+class PresetBuilder {
 public:
-  explicit Making(Description& from) : from_(from)
+  explicit PresetBuilder(Description& from) : from_(from)
   {
     // A picture is right as our camera sees it where x, y and -z of the camera are right-handed. Else the whole world is mirrored.
     if (from_.camera && glm::determinant(glm::dmat3(from_.camera->to_world)) > 0) mirror_[0][0] = -1;
@@ -322,9 +322,9 @@ scene::Mesh open_cylinder(const glm::dvec3& from, const glm::dvec3& to, double r
 
 Imported write_described(Description description, const fs::path& preset)
 {
-  Making making(description);
-  const preset::Preset made = making.make(preset.stem().string(), preset.stem().string() + "-meshes");
-  std::erase_if(description.meshes, [&](const auto& mesh) { return !making.used.contains(mesh.first); });
+  PresetBuilder builder(description);
+  const preset::Preset made = builder.make(preset.stem().string(), preset.stem().string() + "-meshes");
+  std::erase_if(description.meshes, [&](const auto& mesh) { return !builder.used.contains(mesh.first); });
   return write_imported(made, preset, description.meshes, {}, std::move(description.notes));
 }
 

@@ -70,7 +70,7 @@ void AnnealingPanel::follow(const Context& context)
   beam_.reset();
   if (facet_ && layout_ && slopes) beam_ = facet_beam(*slopes, *layout_, *facet_);
   auto lines = beam_ ? lines_of(*beam_, *layout_) : std::vector<std::vector<preset::Vec3>>();
-  if (lines != context.chosen.lines) context.push(command::ShowLines{std::move(lines)});
+  if (lines != context.view_state.lines) context.push(command::ShowLines{std::move(lines)});
 }
 
 void AnnealingPanel::draw_toolbar(const Context& context)

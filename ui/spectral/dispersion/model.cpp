@@ -37,12 +37,12 @@ std::vector<double> wavelengths_of_line(double low_nm, double high_nm)
   return nm;
 }
 
-void make_lines(const optics::DispersionCurve& data, optics::Outside outside, GlassCurve& glass_curve)
+void make_lines(const optics::DispersionCurve& data, optics::Extrapolation outside, GlassCurve& glass_curve)
 {
   const auto ends = glass_curve.points ? glass_curve.data_nm : std::array<double, 2>{optics::first_nm, optics::last_nm};
   glass_curve.line_nm = wavelengths_of_line(ends[0], ends[1]);
   for (const double nm : glass_curve.line_nm) {
-    const bool refused = outside == optics::Outside::refuse && (nm < glass_curve.data_nm[0] || nm > glass_curve.data_nm[1]);
+    const bool refused = outside == optics::Extrapolation::refuse && (nm < glass_curve.data_nm[0] || nm > glass_curve.data_nm[1]);
     const optics::IndexSample sample = refused ? optics::IndexSample{} : data.sample(nm, outside);
     glass_curve.line_n.push_back(sample.n.value_or(nan));
     if (data.k) glass_curve.line_k.push_back(sample.k.value_or(nan));
@@ -118,7 +118,7 @@ FittedPoints fit_points(const optics::Spectrum& n, double tolerance, std::size_t
   FittedPoints fitted;
   fitted.points = {point(0), point(optics::wavelength_count - 1)};
   while (true) {
-    const optics::Spectrum fitted_n = optics::sample_n(optics::control_points(fitted.points), optics::Outside::hold);
+    const optics::Spectrum fitted_n = optics::sample_n(optics::control_points(fitted.points), optics::Extrapolation::hold);
     int worst = 0;
     fitted.greatest_deviation = 0;
     for (int i = 0; i < optics::wavelength_count; ++i) {
@@ -147,7 +147,7 @@ GlassCurve make_glass_curve(const preset::Dispersion& dispersion, const std::str
   try {
     const FileFinder finder(std::filesystem::path(preset_source).parent_path());
     const optics::DispersionCurve data = scene::make_curve(dispersion, finder, where);
-    const optics::Outside outside = scene::outside_policy(dispersion.outside);
+    const optics::Extrapolation outside = scene::outside_policy(dispersion.outside);
     glass_curve.name = data.name;
     glass_curve.data_nm = data.range_nm();
     make_lines(data, outside, glass_curve); // also where it cannot be rendered: the person sees where it goes wrong

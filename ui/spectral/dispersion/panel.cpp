@@ -71,7 +71,7 @@ void DispersionPanel::draw(const Context& context)
 void DispersionPanel::follow(const Context& context)
 {
   const preset::Preset& preset = *context.preset();
-  const std::string material = shown_dielectric(preset, context.chosen.material);
+  const std::string material = shown_dielectric(preset, context.view_state.material);
   model_.update(preset, material);
   dispersion_ = preset.scene.materials.at(material).dispersion;
   points_ = sorted_points(dispersion_);

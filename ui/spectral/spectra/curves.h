@@ -15,7 +15,7 @@ namespace nephroid::ui {
 struct SeenByGlass {
   std::vector<std::string> materials;      ///< names of Scene::materials, in whose order the shares are
   std::optional<scene::Light> environment; ///< where it is a light
-  photons::Whereabouts whereabouts;
+  photons::ImportanceGeometry whereabouts;
   photons::Settings settings;             ///< of the run,
   std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
   bool operator==(const SeenByGlass&) const = default;
