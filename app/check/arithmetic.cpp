@@ -89,7 +89,7 @@ Check built_in_check(const BuiltIn& b)
             std::vector<float4> in(sample_count);
             for (float4& a : in) a = b.arguments(random);
             const compute::Buffer<float> out(context, "out", in.size());
-            run_over(context, "built_ins", in.size(),
+            run_kernel(context, "built_ins", in.size(),
                      {{"function", static_cast<int>(b.function)}, {"in", compute::Buffer(context, "in", in)}, {"out", out}});
             const std::vector<float> got = out.read();
             double worst = 0;
@@ -106,7 +106,7 @@ Result products_round_apart(const compute::Context& context, std::uint64_t seed)
   std::vector<float4> in(sample_count);
   for (float4& a : in) a = products(random);
   const compute::Buffer<float> out(context, "out", in.size());
-  run_over(context, "built_ins", in.size(),
+  run_kernel(context, "built_ins", in.size(),
            {{"function", static_cast<int>(Function::difference)}, {"in", compute::Buffer(context, "in", in)}, {"out", out}});
   const std::vector<float> got = out.read();
   double fused = 0;
@@ -125,7 +125,7 @@ Result quanta_round_to_even(const compute::Context& context, std::uint64_t seed)
   std::vector<float> in{0.5f, 1.5f, 2.5f, -0.5f, -1.5f, -2.5f, 8388607.5f, -8388607.5f, 0x1p42f, -0x1p42f};
   while (in.size() < sample_count) in.push_back(any_size(random, 42, true));
   const compute::Buffer<std::int64_t> out(context, "out", in.size());
-  run_over(context, "to_quanta", in.size(), {{"in", compute::Buffer(context, "in", in)}, {"out", out}});
+  run_kernel(context, "to_quanta", in.size(), {{"in", compute::Buffer(context, "in", in)}, {"out", out}});
   const std::vector<std::int64_t> got = out.read();
   double wrong = 0;
   for (std::size_t i = 0; i < in.size(); ++i) wrong += got[i] != std::llrint(in[i]);

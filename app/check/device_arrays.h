@@ -17,7 +17,7 @@ inline shared::uint2 device_seed(std::uint64_t seed) { return {static_cast<std::
 inline constexpr std::size_t local_size = 64;
 
 /// Kernel `name` of a file over `count` items, which is its argument "count"; the others are given.
-inline void run_over(const compute::Context& context, const char* name, std::size_t count, std::initializer_list<compute::Argument> own,
+inline void run_kernel(const compute::Context& context, const char* name, std::size_t count, std::initializer_list<compute::Argument> own,
                      const char* file = "check/check.cl", const compute::Defines& defines = {})
 {
   const auto items = static_cast<std::uint32_t>(count);

@@ -41,7 +41,7 @@ Result published_vectors(const compute::Context& context, std::uint64_t)
                                      {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd},
                                      {0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}};
   const compute::Buffer<Block> out(context, "results", counters.size());
-  run_over(
+  run_kernel(
       context, "philox", counters.size(),
       {{"counters", compute::Buffer(context, "counters", counters)}, {"keys", compute::Buffer(context, "keys", keys)}, {"results", out}});
   const std::vector<Block> got = out.read();
@@ -56,7 +56,7 @@ Result uniforms(const compute::Context& context, std::uint64_t seed)
   constexpr std::size_t count = 1 << 16;
   const Key key{device_seed(seed).x, device_seed(seed).y};
   const compute::Buffer<std::array<float, 4>> out(context, "uniforms", count);
-  run_over(context, "uniforms", count,
+  run_kernel(context, "uniforms", count,
            {{"seed", key}, {"pass", std::uint32_t{3}}, {"block", std::uint32_t{4}}, {"stream", std::uint32_t{5}}, {"results", out}});
   const auto got = out.read();
   double wrong = 0;
@@ -84,7 +84,7 @@ Result sums(const compute::Context& context, std::uint64_t seed, bool halves)
   }
   const compute::Defines defines = halves ? compute::Defines{{"NEPHROID_CHECK_HALVES", "1"}} : compute::Defines{};
   const compute::Buffer<std::int64_t> out = compute::zeroed<std::int64_t>(context, "sums", places);
-  run_over(context, "add_all", count,
+  run_kernel(context, "add_all", count,
            {{"values", compute::Buffer(context, "values", values)}, {"places", compute::Buffer(context, "places", where)}, {"sums", out}},
            "check/check_sums.cl", defines);
   const std::vector<std::int64_t> got = out.read();
@@ -116,7 +116,7 @@ Result film_limit(const compute::Context& context, std::uint64_t)
   for (const Case& c : cases) in.push_back(c.xyz_scale);
   const compute::Buffer<std::int64_t> film = compute::zeroed<std::int64_t>(context, "film", 3 * in.size());
   const compute::Buffer<std::int32_t> accepted(context, "accepted", in.size());
-  run_over(context, "add_to_film", in.size(), {{"xyz_scale", compute::Buffer(context, "in", in)}, {"film", film}, {"accepted", accepted}},
+  run_kernel(context, "add_to_film", in.size(), {{"xyz_scale", compute::Buffer(context, "in", in)}, {"film", film}, {"accepted", accepted}},
            "check/check_sums.cl");
   const auto sums = film.read();
   const auto answers = accepted.read();

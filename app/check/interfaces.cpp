@@ -24,7 +24,7 @@ constexpr float indices[] = {1, 1.0001f, 1.33f, 1.5f, 1.9f, 2.42f, 4};
 std::vector<float4> through(const compute::Context& context, const char* kernel, const std::vector<float4>& in, std::size_t outputs_each)
 {
   const compute::Buffer<float4> out(context, "out", in.size() * outputs_each);
-  run_over(context, kernel, in.size(), {{"in", compute::Buffer(context, "in", in)}, {"out", out}});
+  run_kernel(context, kernel, in.size(), {{"in", compute::Buffer(context, "in", in)}, {"out", out}});
   return out.read();
 }
 
@@ -160,7 +160,7 @@ Result nested_media(const compute::Context& context, std::uint64_t seed)
     }
   }
   const compute::Buffer<int> out(context, "mediums", steps.size());
-  run_over(context, "media_walks", walks,
+  run_kernel(context, "media_walks", walks,
            {{"objects", compute::Buffer(context, "objects", objects)},
             {"steps", compute::Buffer(context, "steps", steps)},
             {"mediums", out},

@@ -33,7 +33,7 @@ struct ExportOptions {
 preset::Preset still(preset::Preset preset) { return preset.animation ? preset::at_frame(preset, 0) : preset; }
 
 /// Of engine 1, whatever engine it is of, with photons on matt surfaces and nothing else.
-preset::Preset of_caustics_alone(const ExportOptions& options, const preset::Preset& asked)
+preset::Preset caustics_only(const ExportOptions& options, const preset::Preset& asked)
 {
   preset::Overrides overrides = options.run.overrides;
   for (const char* more : {"engine=spectral", "spectral.direct=false", "spectral.background=false", "spectral.indirect=false",
@@ -100,7 +100,7 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
                     {}, fmt::format("run it first, then export {} of its folder", engine.introduction.result.file));
   const fs::path folder =
       options.run.folder.empty() ? fs::path("out") / (preset::stem_of(options.run.preset) + "-export") : options.run.folder;
-  const preset::Preset preset = of_caustics_alone(options, asked);
+  const preset::Preset preset = caustics_only(options, asked);
   preset::at_origins(preset, [&] {
     const run::Prepared prepared = run::prepare(preset, nullptr, {interrupted, {}});
     const std::vector<run::Receiver> receivers = chosen(options, prepared.loaded->scene);

@@ -44,7 +44,7 @@ std::string where_time_went(const job::Snapshot& snapshot)
 
 void require_same(mpi::Ranks& ranks, const run::Prepared& prepared, const compute::Context& context)
 {
-  for (const auto& [what, mine] : run::what_bits_hang_on(prepared, context)) mpi::require_same(ranks, what, mine);
+  for (const auto& [what, mine] : run::bit_dependencies(prepared, context)) mpi::require_same(ranks, what, mine);
 }
 
 /// Renders one target on a device that is open for all of them.
@@ -111,7 +111,7 @@ private:
   {
     std::unique_ptr<job::Job> before = std::move(shared.job);
     if (!before || target_.preset.reference) return nullptr; // a reference is of one frame
-    if (!run::what_changed(shared.inputs_of_job, shared.prepared->plan->inputs).empty()) return nullptr;
+    if (!run::changed_input(shared.inputs_of_job, shared.prepared->plan->inputs).empty()) return nullptr;
     preset::Preset now = target_.preset;
     now.name = shared.of_job.name; // the name is a frame's, and changes nothing
     if (!engine::adoptable(shared.of_job, now) || !before->adopt(now)) return nullptr;

@@ -90,7 +90,7 @@ public:
   RawBuffer() = default;
   RawBuffer(const Context& context, std::string name, std::size_t bytes, const void* initial);
   /// To be read alone. A device that has the host's memory reads `items` where they are: they stay as they are while it lives.
-  static RawBuffer of_host(const Context& context, std::string name, std::size_t bytes, const void* items);
+  static RawBuffer wrapping_host_memory(const Context& context, std::string name, std::size_t bytes, const void* items);
   void write(const void* from, std::size_t bytes, std::size_t offset_bytes);
   void read(void* to, std::size_t bytes, std::size_t offset_bytes) const; ///< waits
   void fill_zero();
@@ -115,10 +115,10 @@ public:
       : RawBuffer(context, std::move(name), items.size_bytes(), items.data()), count_(items.size())
   {
   }
-  static Buffer of_host(const Context& context, std::string name, std::span<const T> items)
+  static Buffer wrapping_host_memory(const Context& context, std::string name, std::span<const T> items)
   {
     Buffer buffer;
-    static_cast<RawBuffer&>(buffer) = RawBuffer::of_host(context, std::move(name), items.size_bytes(), items.data());
+    static_cast<RawBuffer&>(buffer) = RawBuffer::wrapping_host_memory(context, std::move(name), items.size_bytes(), items.data());
     buffer.count_ = items.size();
     return buffer;
   }

@@ -55,7 +55,7 @@ RawBuffer::RawBuffer(const Context& context, std::string name, std::size_t bytes
   if (bytes > 0 && initial) write(initial, bytes, 0);
 }
 
-RawBuffer RawBuffer::of_host(const Context& context, std::string name, std::size_t bytes, const void* items)
+RawBuffer RawBuffer::wrapping_host_memory(const Context& context, std::string name, std::size_t bytes, const void* items)
 {
   if (bytes == 0 || context.device().type != "cpu") return {context, std::move(name), bytes, items};
   RawBuffer buffer;

@@ -279,9 +279,9 @@ private:
     for (std::size_t j = 0; j < targets_.size(); ++j) light.push_back(method_->light(j));
     const std::vector<double> heights = method_->heights();
     const ConflictSearch search(layout_, targets_, method_->slopes(), heights, light);
-    conflict_ = grey_picture(search.of_facets(), 1, layout_.facets);
+    conflict_ = grey_picture(search.facet_conflicts(), 1, layout_.facets);
     conflicts_.reset();
-    if (judge_) conflicts_ = search.of_pictures();
+    if (judge_) conflicts_ = search.picture_conflicts();
   }
 
   /// The receivers' pictures and those between them in the order of their distance, as a screen that moves away would show them: as bright

@@ -44,9 +44,9 @@ void transform_rows(Grid& grid, Transform way)
         fft.fwd(changed.data(), values.data(), count);
         for (Eigen::Index k = 0; k < count; ++k) {
           const Complex here = at(changed, k), mirrored = std::conj(at(changed, k > 0 ? count - k : 0));
-          const Complex of_a = (here + mirrored) / 2.0, of_b = (here - mirrored) / Complex(0, 2);
-          a[k] = (of_a * at(turns, k)).real();
-          b[k] = (of_b * at(turns, k)).real();
+          const Complex spectrum_a = (here + mirrored) / 2.0, spectrum_b = (here - mirrored) / Complex(0, 2);
+          a[k] = (spectrum_a * at(turns, k)).real();
+          b[k] = (spectrum_b * at(turns, k)).real();
         }
       } else {
         for (Eigen::Index k = 0; k < count; ++k) {

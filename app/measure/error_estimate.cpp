@@ -72,12 +72,12 @@ Metrics estimate_error(const job::Picture& picture, Mask mask)
   const Pixels pixels{picture.width, picture.height, picture.rgb, "the run"};
   std::vector<float> drawn(picture.rgb.size());
   for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i] = picture.rgb[i] + picture.error_draw[i];
-  const Metrics of_draw = compare({picture.width, picture.height, drawn, "the run"}, pixels, mask, MetricSet::quick);
+  const Metrics draw_metrics = compare({picture.width, picture.height, drawn, "the run"}, pixels, mask, MetricSet::quick);
   const std::vector<float> truth = likely_truth(picture);
   Metrics metrics = compare(pixels, {picture.width, picture.height, truth, "the run"}, mask, MetricSet::quick);
-  metrics.mse = of_draw.mse;
-  metrics.rel_l2 = of_draw.rel_l2;
-  metrics.psnr_db = of_draw.psnr_db;
+  metrics.mse = draw_metrics.mse;
+  metrics.rel_l2 = draw_metrics.rel_l2;
+  metrics.psnr_db = draw_metrics.psnr_db;
   return metrics;
 }
 

@@ -279,13 +279,13 @@ private:
       for (const Metric* metric : noted_metrics(are_estimates, settings_.perceptual))
         errors.push_back(metrics ? metric->of(*metrics) : none);
     };
-    if (against_) add(of_effort(pixels, {}, *against_), false);
-    if (masked_) add(of_effort(pixels, reference_->mask, *masked_), false);
+    if (against_) add(metrics_against(pixels, {}, *against_), false);
+    if (masked_) add(metrics_against(pixels, reference_->mask, *masked_), false);
     if (settings_.estimate) add(picture.error_draw.empty() ? std::nullopt : std::optional(estimate_error(picture)), true);
     return errors;
   }
 
-  Metrics of_effort(const Pixels& pixels, Mask mask, const QuickComparison& quick) const
+  Metrics metrics_against(const Pixels& pixels, Mask mask, const QuickComparison& quick) const
   {
     return settings_.perceptual ? compare(pixels, reference_->pixels(), mask) : quick.against(pixels);
   }

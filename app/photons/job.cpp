@@ -246,14 +246,14 @@ private:
     for (const job::Layer& layer : picture.layers)
       std::transform(layer.rgb.begin(), layer.rgb.end(), picture.rgb.begin(), picture.rgb.begin(), std::plus());
 
-    Noise of_caustics{splatted.draw, picture.rgb, at_.pass};
+    Noise caustic_noise_now{splatted.draw, picture.rgb, at_.pass};
     double noise = 0; // of photons: what glass shows are also paths
     for (std::size_t i = 0; i < picture.rgb.size(); ++i)
-      if (!world_.pixels.may_show_glass[i / 3]) noise += of_caustics.of(i);
+      if (!world_.pixels.may_show_glass[i / 3]) noise += caustic_noise_now.of(i);
     if (noise == 0) return;
-    of_caustics.photon_gain = noise / (static_cast<double>(at_.pass) * static_cast<double>(photons));
+    caustic_noise_now.photon_gain = noise / (static_cast<double>(at_.pass) * static_cast<double>(photons));
     for (std::size_t s = 0; s < stages_.size(); ++s)
-      stages_[s].stage->share_work(stages_[s].caustics() ? of_caustics : Noise{draws[s], picture.rgb, at_.pass, of_caustics.photon_gain});
+      stages_[s].stage->share_work(stages_[s].caustics() ? caustic_noise_now : Noise{draws[s], picture.rgb, at_.pass, caustic_noise_now.photon_gain});
   }
 
   /// A black picture without layers, with room for a draw of its error where films have halves.

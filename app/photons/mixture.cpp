@@ -11,15 +11,15 @@ namespace nephroid::photons {
 namespace {
 
 /// How far around a pixel its errors are asked for, and its light, in pixels.
-constexpr int error_reach = 8, light_reach = 7;
+constexpr int error_radius = 8, light_radius = 7;
 
 } // namespace
 
 double least_light(std::span<const double> light)
 {
   double sum = 0, count = 0;
-  for (const double of_pixel : light)
-    if (of_pixel > 0) sum += of_pixel, ++count;
+  for (const double pixel_light : light)
+    if (pixel_light > 0) sum += pixel_light, ++count;
   return count > 0 ? 0.01 * sum / count : 1;
 }
 
@@ -30,31 +30,31 @@ void mix(std::span<const float> picture, std::span<const float> picture_draw, co
   const double dark = least_light(light);
   const SummedArea lights(width, height, [&](std::size_t i) { return light[i]; });
   // term(c, r): of a channel of a pixel. The sum of the three over the light there.
-  const auto over_light = [&](std::size_t i, const auto& term) {
+  const auto relative_to_light = [&](std::size_t i, const auto& term) {
     double sum = 0;
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c, static_cast<double>(estimate.rgb[c]) - rgb[c]);
-    return sum / (dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, light_reach));
+    return sum / (dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, light_radius));
   };
   const SummedArea slopes(width, height, [&](std::size_t i) {
-    return over_light(i, [&](std::size_t c, double r) {
+    return relative_to_light(i, [&](std::size_t c, double r) {
       return r * (static_cast<double>(rgb[c]) - picture[c]) + (draw_of(c) - error_draw[c]) * picture_draw[c];
     });
   });
   // A draw of the noise that is in r (b - p).
   const SummedArea scatters(width, height, [&](std::size_t i) {
-    return std::pow(over_light(i,
+    return std::pow(relative_to_light(i,
                                [&](std::size_t c, double r) {
                                  return r * (static_cast<double>(error_draw[c]) - picture_draw[c]) +
                                         (draw_of(c) - error_draw[c]) * (static_cast<double>(rgb[c]) - picture[c]);
                                }),
                     2);
   });
-  const SummedArea squares(width, height, [&](std::size_t i) { return over_light(i, [](std::size_t, double r) { return r * r; }); });
+  const SummedArea squares(width, height, [&](std::size_t i) { return relative_to_light(i, [](std::size_t, double r) { return r * r; }); });
   for_ranges(light.size(), std::size_t{1} << 12, [&](std::size_t, Range range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-      const double scatter = std::sqrt(std::max(scatters.sum(x, y, error_reach), 0.0));
-      const double gain = -slopes.sum(x, y, error_reach) - scatter, square = squares.sum(x, y, error_reach);
+      const double scatter = std::sqrt(std::max(scatters.sum(x, y, error_radius), 0.0));
+      const double gain = -slopes.sum(x, y, error_radius) - scatter, square = squares.sum(x, y, error_radius);
       if (gain <= 0 || square <= 0) continue;
       const auto weight = static_cast<float>(std::min(gain / square, 1.0));
       for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {

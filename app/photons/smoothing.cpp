@@ -21,7 +21,7 @@ namespace nephroid::photons {
 namespace {
 
 /// How far a kernel may reach, and how far around a pixel its noise is asked for, in pixels.
-constexpr int reach = 6, noise_reach = 7;
+constexpr int reach = 6, noise_radius = 7;
 constexpr std::size_t block_rows = 64, block_pixels = 1 << 12;
 
 /// Two pixels are on one nearly flat part where their normals and the way between them are within about 25 and 30 degrees of it.
@@ -33,7 +33,7 @@ constexpr float most_pull = 2;
 constexpr int pull_reach = 2;
 
 /// How far around a pixel the bias of what is spread is asked for, in pixels.
-constexpr int bias_reach = 12;
+constexpr int bias_radius = 12;
 
 struct Offset {
   int x, y;
@@ -122,9 +122,9 @@ void add_bias(std::span<const float> rgb, std::span<const float> error_draw, std
   const SummedArea square(width, height, [&](std::size_t i) { return std::pow(changed(i, -1), 2); });
   for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    const double bias2 = product.sum(x, y, bias_reach), change2 = change.sum(x, y, bias_reach);
+    const double bias2 = product.sum(x, y, bias_radius), change2 = change.sum(x, y, bias_radius);
     if (bias2 <= 0 || change2 <= 0) continue;
-    const double scatter2 = std::max(square.sum(x, y, bias_reach), 0.0);
+    const double scatter2 = std::max(square.sum(x, y, bias_radius), 0.0);
     const auto g = static_cast<float>(std::sqrt(std::min(bias2 / change2 / (1 + scatter2 / (bias2 * bias2)), 1.0)));
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) draw_spread[c] += g * (rgb_spread[c] - rgb[c]);
   }
@@ -148,7 +148,7 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
   const auto over_light = [&](std::size_t i, const auto& term) {
     double sum = 0;
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) sum += term(c);
-    return sum / (dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_reach));
+    return sum / (dark + lights.mean(static_cast<int>(i) % width, static_cast<int>(i) / width, noise_radius));
   };
   const SummedArea change(width, height, [&](std::size_t i) {
     return over_light(i, [&](std::size_t c) { return std::pow(static_cast<double>(rgb_spread[c]) - rgb[c], 2); });
@@ -162,8 +162,8 @@ std::vector<float> worthwhile_shares(std::span<const float> rgb, std::span<const
   std::vector<float> share(light.size());
   for (std::size_t i = 0; i < share.size(); ++i) {
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    const double changed = change.sum(x, y, bias_reach);
-    share[i] = changed > 0 ? static_cast<float>(std::clamp(gain.sum(x, y, bias_reach) / changed, 0.0, 1.0)) : 0;
+    const double changed = change.sum(x, y, bias_radius);
+    share[i] = changed > 0 ? static_cast<float>(std::clamp(gain.sum(x, y, bias_radius) / changed, 0.0, 1.0)) : 0;
   }
   return share;
 }
@@ -317,8 +317,8 @@ std::vector<double> portions(std::span<const double> light, std::span<const floa
   std::vector<double> portion(light.size());
   for (std::size_t i = 0; i < portion.size(); ++i) {
     const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
-    const double near = lights.mean(x, y, noise_reach);
-    portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_reach), 0.0) / near : 0;
+    const double near = lights.mean(x, y, noise_radius);
+    portion[i] = near > 0 ? std::max(variances.mean(x, y, noise_radius), 0.0) / near : 0;
   }
   return portion;
 }

@@ -14,7 +14,7 @@ Outline outline_of(const Member& member)
   Outline o;
   o.field = member.field;
   o.chooses = member.chooses();
-  o.of_engine = member.role == Role::section || member.role == Role::recipe;
+  o.is_engine_settings = member.role == Role::section || member.role == Role::recipe;
   const ValueType* type = &member.value.type();
   o.optional = type->kind == Kind::optional;
   if (o.optional) type = type->item;
@@ -55,7 +55,7 @@ std::vector<Outline> Outline::fields(const Json& value) const { return outline_o
 std::vector<Outline> outline(const Json& preset)
 {
   std::vector<Outline> fields = outline_of(type_of<Preset>(), preset);
-  std::erase_if(fields, [&](const Outline& o) { return o.of_engine && preset.at("engine") != o.field.name; });
+  std::erase_if(fields, [&](const Outline& o) { return o.is_engine_settings && preset.at("engine") != o.field.name; });
   return fields;
 }
 
@@ -72,7 +72,7 @@ Json as_type(const Json& object, const OutlineOf& fields, const Outline& chooser
     const bool stays = object.contains(name) && std::any_of(before.begin(), before.end(), same);
     if (stays)
       changed[name] = object[name];
-    else if (!o.of_engine || !o.optional) // the settings of another engine would be refused
+    else if (!o.is_engine_settings || !o.optional) // the settings of another engine would be refused
       changed[name] = o.kind == Kind::object && !o.optional ? o.fresh() : o.standard;
   }
   return changed;

@@ -19,7 +19,7 @@ struct Outline {
   Field field;
   Kind kind = Kind::object;
   bool chooses = false;              ///< a word that says which other fields its object has
-  bool of_engine = false;            ///< settings of the engine of that name: they mean something where it is the preset's
+  bool is_engine_settings = false;            ///< settings of the engine of that name: they mean something where it is the preset's
   bool optional = false;             ///< may be null, and is by default
   bool whole = false;                ///< of numbers
   std::size_t size = 0;              ///< how many numbers a vector has; 0: a list of any length within field.count

@@ -97,7 +97,7 @@ void write_checkpoint(const fs::path& folder, const Prepared& prepared, const co
   });
 }
 
-std::vector<std::pair<std::string, std::string>> what_bits_hang_on(const Prepared& prepared, const compute::Context& context)
+std::vector<std::pair<std::string, std::string>> bit_dependencies(const Prepared& prepared, const compute::Context& context)
 {
   const Header header = header_of(prepared, context);
   std::string device = device_of(context);
@@ -122,7 +122,7 @@ bool load_checkpoint(const fs::path& folder, const Prepared& prepared, const com
   if (header.magic != ours.magic) throw refuse("is no checkpoint");
   if (header.format != ours.format) throw refuse(fmt::format("has format {}, and this program has {}", header.format, ours.format));
   if (!hash_is_right(*open_file(path), path)) throw refuse("is cut or damaged");
-  if (const std::string fault = fault_of(header, ours, what_changed(folder, prepared.plan->inputs)); !fault.empty()) throw refuse(fault);
+  if (const std::string fault = fault_of(header, ours, changed_input(folder, prepared.plan->inputs)); !fault.empty()) throw refuse(fault);
   job.load(part);
   if (part.left() != 0) throw refuse(fmt::format("has {} bytes more than the run's state", part.left()));
   return true;

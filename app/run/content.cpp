@@ -75,7 +75,7 @@ std::vector<plan::Input> read_inputs(const preset::Preset& preset, const std::ve
   return inputs;
 }
 
-std::string what_changed(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now)
+std::string changed_input(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now)
 {
   for (const plan::Input& input : now) {
     const plan::Input* then = find_input(before, input.file);
@@ -87,10 +87,10 @@ std::string what_changed(const std::vector<plan::Input>& before, const std::vect
   return {};
 }
 
-std::string what_changed(const fs::path& folder, const std::vector<plan::Input>& now)
+std::string changed_input(const fs::path& folder, const std::vector<plan::Input>& now)
 {
   try {
-    return what_changed(plan::inputs_of(read_file(folder / "plan.json")), now);
+    return changed_input(plan::inputs_of(read_file(folder / "plan.json")), now);
   } catch (const Error&) {
     return {};
   }

@@ -123,7 +123,7 @@ std::optional<FinishedRun> finished_run(const fs::path& folder, const preset::Pr
     progress.work = run.at(work).get<std::uint64_t>();
     progress.work_seconds = run.at("work_seconds").get<double>();
     progress.units = {.step = words->at(0), .steps = words->at(1), .work = words->at(2), .works = words->at(2)};
-    return FinishedRun{progress, words, what_changed(folder, read_inputs(preset, known))};
+    return FinishedRun{progress, words, changed_input(folder, read_inputs(preset, known))};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt; // written by something else: the run is done again
   }

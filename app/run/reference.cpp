@@ -120,7 +120,7 @@ std::vector<float> rendered_seed(const Prepared& prepared, const compute::Contex
 {
   const Prepared recipe = prepare(recipe_preset(prepared.preset, seed), &prepared);
   const std::unique_ptr<job::Job> job = make_job(recipe, context);
-  if (const std::string changed = what_changed(prepared.plan->inputs, recipe.plan->inputs); !changed.empty())
+  if (const std::string changed = changed_input(prepared.plan->inputs, recipe.plan->inputs); !changed.empty())
     throw failed(Place(prepared.preset.source) / "reference", "cannot be rendered: " + changed, "", "start again");
   while (!job->finished()) {
     if (stop.stop_requested())

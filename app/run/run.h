@@ -27,9 +27,9 @@ namespace nephroid::run {
 std::vector<plan::Input> read_inputs(const preset::Preset& preset, const std::vector<plan::Input>& known = {});
 
 /// "the file 'a.obj' has changed since the run began", of the first that holds something else `now`, by its name; empty where none does.
-std::string what_changed(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now);
+std::string changed_input(const std::vector<plan::Input>& before, const std::vector<plan::Input>& now);
 /// The same since the run in the folder began, by its plan.json; empty also where that is damaged.
-std::string what_changed(const std::filesystem::path& folder, const std::vector<plan::Input>& now);
+std::string changed_input(const std::filesystem::path& folder, const std::vector<plan::Input>& now);
 
 /// Of the engine, its state's version, the settings that a picture's sums depend on (not: names, descriptions, stop, reference, mask) and
 /// the contents of the files that they name, whatever these are called. inputs: has them all.
@@ -120,7 +120,7 @@ void write_settings(const std::filesystem::path& folder, const Prepared& prepare
 struct FinishedRun {
   job::Progress progress; ///< its units are `words`
   std::shared_ptr<const std::vector<std::string>> words;
-  std::string changed; ///< what_changed() of its files since: then it is no longer the preset's
+  std::string changed; ///< changed_input() of its files since: then it is no longer the preset's
 };
 /// The run in the folder, if it is the finished run of exactly this preset; else nothing, also where run.json is damaged. known: as
 /// read_inputs takes it.
@@ -167,7 +167,7 @@ void write_history(const std::filesystem::path& folder, const job::History& hist
 /// depend on, and to the device, the kernels and the program's version, each of which may round in its own way.
 void write_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);
 /// What another process has to have alike so that it computes the same bits, each with a name for a message.
-std::vector<std::pair<std::string, std::string>> what_bits_hang_on(const Prepared& prepared, const compute::Context& context);
+std::vector<std::pair<std::string, std::string>> bit_dependencies(const Prepared& prepared, const compute::Context& context);
 /// Loads it into a job that was just made. False where there is none. Throws bad_input where it is bound to something else, which it
 /// names, or is cut.
 bool load_checkpoint(const std::filesystem::path& folder, const Prepared& prepared, const compute::Context& context, job::Job& job);

@@ -36,20 +36,20 @@ void add_layer(const std::string& name, const Film& film, job::Picture& picture)
   const std::int64_t* second = halves ? first + 3 * pixels : first; // where there is one image, its weight below is 0
   if (!halves) error_draw.clear();
   std::array<double, 2> samples{-1, -1}; // of the pixel before: most have as many
-  double mean = 0, of_a = 0, of_b = 0;
+  double mean = 0, mean_a = 0, mean_b = 0;
   for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
     if (const std::array<double, 2> counts = film.samples(pixel); counts != samples) {
       const auto [a, b] = samples = counts;
       mean = a + b > 0 ? 1 / ((a + b) * film.quanta_per_unit) : 0;
       // (A / a - B / b) sqrt(a b) / (a + b), with the sums A and B
-      of_a = mean * std::sqrt(b / a), of_b = mean * std::sqrt(a / b);
+      mean_a = mean * std::sqrt(b / a), mean_b = mean * std::sqrt(a / b);
       if (a <= 0 || b <= 0) error_draw.clear();
     }
     const std::size_t i = 3 * pixel;
     const optics::Colour value = blend(first + i, mean, second + i, halves ? mean : 0);
     for (std::size_t c = 0; c < 3; ++c) layer.rgb[i + c] += static_cast<float>(value[c]);
     if (error_draw.empty()) continue;
-    const optics::Colour error = blend(first + i, of_a, second + i, -of_b);
+    const optics::Colour error = blend(first + i, mean_a, second + i, -mean_b);
     for (std::size_t c = 0; c < 3; ++c) error_draw[i + c] += static_cast<float>(error[c]);
   }
 }

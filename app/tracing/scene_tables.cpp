@@ -198,9 +198,9 @@ SkyTables make_sky_tables(const scene::Environment& environment)
   tables.mean_colour = {static_cast<float>(whole.mean[0]), static_cast<float>(whole.mean[1]), static_cast<float>(whole.mean[2]), 0};
   tables.colour.reserve(environment.rgb.size());
   for (std::size_t row = 0; row < flux.rows.size(); ++row) {
-    const double steradians = scene::texel_steradians(environment, static_cast<int>(row)), of_row = chance(tables.cdf, row);
+    const double steradians = scene::texel_steradians(environment, static_cast<int>(row)), row_chance = chance(tables.cdf, row);
     for (std::size_t column = 0; column < width; ++column) {
-      const double drawn = of_row * chance(flux.texels[row], column);
+      const double drawn = row_chance * chance(flux.texels[row], column);
       for (std::size_t c = 0; c < 3; ++c) {
         const double value = environment.rgb[3 * (row * width + column) + c];
         tables.colour.push_back(drawn > 0 ? static_cast<float>(value * steradians / (whole.grey * drawn)) : 0.0f);

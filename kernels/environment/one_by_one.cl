@@ -24,12 +24,12 @@ static inline float3 caustic_one_by_one(SETS, const DeviceSpheres* spheres, floa
     __global const DeviceEightSets* eight = sets + (first_set + i) / 8;
     const int k = (first_set + i) % 8;
 #if NEPHROID_DIRECTION_BUFFERS
-    __global const ushort* of_set = i == 0 ? stored_0 : i == 1 ? stored_1 : i == 2 ? stored_2 : stored_3;
+    __global const ushort* set_spheres = i == 0 ? stored_0 : i == 1 ? stored_1 : i == 2 ? stored_2 : stored_3;
 #else
-    __global const ushort* of_set = stored + NEPHROID_CHANNELS * eight->first[k];
+    __global const ushort* set_spheres = stored + NEPHROID_CHANNELS * eight->first[k];
 #endif
     const FourTexels four = four_texels(in_set(eight, k, direction), spheres->side);
-    sum += flux_of_set(eight, k) * stored_between_spheres(of_set, spheres, &four, shell);
+    sum += flux_of_set(eight, k) * stored_between_spheres(set_spheres, spheres, &four, shell);
   }
   return spheres->scale * sum;
 }

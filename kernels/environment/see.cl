@@ -20,7 +20,7 @@ static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, 
   DeviceEnd end = nowhere();
   Surface surface;
   Hit hit = *first;
-  const float scale = reach_end(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
+  const float scale = trace_to_diffuse(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
   if (scale == 0.0f) return end;
   const float3 throughput = scale * wavelength_left(&world->tables, &path.losses, max(band->wavelength, 0)) * weight;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {

@@ -28,7 +28,7 @@ static inline float3 seen_through(const World* world, const Background* backgrou
                                   uint pixel)
 {
   Surface surface;
-  const float radiance_scale = reach_end(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND, false, &surface);
+  const float radiance_scale = trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND, false, &surface);
   if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
   return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses, band);
 }

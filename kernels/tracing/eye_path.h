@@ -114,7 +114,7 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
 // of a diffuse surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost:
 // radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and
 // refraction. likelier: the path takes the likelier of the two everywhere, for a preview without noise.
-IN_PLACE float reach_end(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed, uint sample, uint paths,
+IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed, uint sample, uint paths,
                          uint pixel, uint stream, bool likelier, Surface* surface)
 {
   float radiance_scale = 1.0f;
@@ -140,7 +140,7 @@ IN_PLACE float reach_end(const World* world, Path* path, Hit* hit, bool known, c
 IN_PLACE float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint paths, uint pixel,
                              uint stream, Surface* surface)
 {
-  const float radiance_scale = reach_end(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface);
+  const float radiance_scale = trace_to_diffuse(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface);
   return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
 }
 

@@ -36,10 +36,10 @@ static inline float sky_density(const Sky* sky, __global const float* cdf, int r
 {
   const int width = made_late(sky->size.width), height = made_late(sky->size.height);
   __global const float* columns = cdf + height + (size_t)row * (size_t)width;
-  const float of_row = cdf[row] - chance_before(cdf, row), of_column = columns[column] - chance_before(columns, column);
+  const float row_chance = cdf[row] - chance_before(cdf, row), column_chance = columns[column] - chance_before(columns, column);
   // cos a - cos b as a product, exact for thin rows.
   const float steradians = 4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
-  return of_row * of_column / steradians;
+  return row_chance * column_chance / steradians;
 }
 
 static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int column)

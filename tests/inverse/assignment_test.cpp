@@ -258,7 +258,7 @@ double fight(const Conflicts& c, std::size_t j, std::size_t k) { return c.betwee
 // Light that goes straight on makes the same picture at any distance: here the whole receiver.
 TEST(Conflicts, NoneWhereStraightLightMakesBoth)
 {
-  EXPECT_LT(fight(assigned({100, 200}, {box(0, 16), box(0, 16)}).search().of_pictures(), 0, 1), 0.05);
+  EXPECT_LT(fight(assigned({100, 200}, {box(0, 16), box(0, 16)}).search().picture_conflicts(), 0, 1), 0.05);
 }
 
 // Through a first receiver's left edge no light comes to a second one's right edge. A facet serves one of them: all of the light is
@@ -266,10 +266,10 @@ TEST(Conflicts, NoneWhereStraightLightMakesBoth)
 TEST(Conflicts, AllLightWherePicturesExcludeEachOther)
 {
   const Found found = assigned({100, 200}, {box(0, 2, 6, 10), box(14, 16, 6, 10)});
-  const Conflicts c = found.search().of_pictures();
+  const Conflicts c = found.search().picture_conflicts();
   EXPECT_NEAR(c.misplaced[0] + c.misplaced[1], 1, 0.1);
   EXPECT_NEAR(fight(c, 0, 1), 1, 0.15);
-  const std::vector<double> facets = found.search().of_facets();
+  const std::vector<double> facets = found.search().facet_conflicts();
   for (const double facet : facets) EXPECT_LE(facet, 1);
   EXPECT_GT(std::accumulate(facets.begin(), facets.end(), 0.0) / 4096, 0.85);
 }
@@ -286,7 +286,7 @@ TEST(Conflicts, AddUpToTheError)
   const std::vector<double> heights = a.heights();
   const std::vector<std::vector<double>> light{a.light(0)};
   const ConflictSearch search(layout, targets, a.slopes(), heights, light);
-  EXPECT_NEAR(search.of_pictures().misplaced[0], lacking, 1e-6);
+  EXPECT_NEAR(search.picture_conflicts().misplaced[0], lacking, 1e-6);
 }
 
 // Between two that exclude each other stands a third, which is what their light makes there by itself.
@@ -299,7 +299,7 @@ TEST(Conflicts, BlameNoThird)
   const double received = std::accumulate(found.light[1].begin(), found.light[1].end(), 0.0);
   found.targets.insert(found.targets.begin() + 1, found.light[1]);
   for (double& t : found.targets[1]) t /= received;
-  const Conflicts c = found.search().of_pictures();
+  const Conflicts c = found.search().picture_conflicts();
   EXPECT_NEAR(c.misplaced[1], 1 - received / inverse::light_sent(found.layout, found.slopes), 1e-6); // what is beside the receiver
   EXPECT_GT(fight(c, 0, 2), 0.8);
   EXPECT_LT(fight(c, 0, 1), 0.1 * fight(c, 0, 2));

@@ -305,7 +305,7 @@ TEST(NewestStatistics, AreMadeOnceOfWhatIsWanted)
   NewestResult<RegionStatistics> statistics;
   const auto want = [&](const RegionRequest& wanted) {
     tasks.collect(messages);
-    want_statistics(statistics, tasks, wanted);
+    request_statistics(statistics, tasks, wanted);
   };
   const RegionRequest request{picture_of(2, 1, {1, 3}), {}, "", {{0, 0}, {2, 1}}, 1};
   ASSERT_TRUE(test::eventually([&] { return want(request), statistics.newest() != nullptr; }));

@@ -53,7 +53,7 @@ MapDrag MapView::draw(const MapContents& contents, float most_height)
   drag.taken = ImGui::IsItemActivated();
   if (drag.taken) taken_x_ = mouse.x;
   drag.moved = active && !drag.taken && ImGui::GetIO().MouseDelta.x != 0;
-  drag.let_go = ImGui::IsItemDeactivated();
+  drag.ended = ImGui::IsItemDeactivated();
   drag.across = (mouse.x - taken_x_) / width;
   hovered_ = hovered && !active ? region_at(contents, {mouse.x, mouse.y}) : std::nullopt;
 

@@ -145,15 +145,15 @@ std::vector<RegionFigures> figures_of(const environment::Segmentation& segmentat
     for (const environment::Region& region : *regions) {
       const glm::dvec3 d = environment::turned(region.direction, rotate_deg);
       const double flux = environment::luminance(region.flux);
-      RegionFigures of_region;
-      of_region.flux = radiance * flux;
-      of_region.share = total > 0 ? flux / total : 0;
-      of_region.azimuth_deg = glm::degrees(std::atan2(d.x, -d.z));
-      of_region.elevation_deg = glm::degrees(std::asin(std::clamp(d.y, -1.0, 1.0)));
-      of_region.solid_angle_sr = region.solid_angle_sr;
-      of_region.colour = colour_of(region.flux);
-      if (figures.size() < visible.size()) of_region.occluded = 1 - visible[figures.size()];
-      figures.push_back(of_region);
+      RegionFigures figures;
+      figures.flux = radiance * flux;
+      figures.share = total > 0 ? flux / total : 0;
+      figures.azimuth_deg = glm::degrees(std::atan2(d.x, -d.z));
+      figures.elevation_deg = glm::degrees(std::asin(std::clamp(d.y, -1.0, 1.0)));
+      figures.solid_angle_sr = region.solid_angle_sr;
+      figures.colour = colour_of(region.flux);
+      if (figures.size() < visible.size()) figures.occluded = 1 - visible[figures.size()];
+      figures.push_back(figures);
     }
   return figures;
 }

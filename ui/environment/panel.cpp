@@ -281,7 +281,7 @@ void EnvironmentPanel::draw_map(const Context& context)
         "turn the environment",
         [&](preset::Preset& p) { p.scene.environment->rotate_deg = dragged_rotation(taken_deg_, drag.across, layout_); },
         gestures_.number(), true);
-  if (drag.let_go) context.push(command::EndGesture{});
+  if (drag.ended) context.push(command::EndGesture{});
 }
 
 void EnvironmentPanel::draw_summary() const

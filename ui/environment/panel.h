@@ -21,7 +21,7 @@ struct MapContents {
 
 /// A drag with the left button, in this frame.
 struct MapDrag {
-  bool taken = false, moved = false, let_go = false;
+  bool taken = false, moved = false, ended = false;
   double across = 0; ///< widths of the picture to the right since it was taken
 };
 

@@ -80,8 +80,8 @@ void ErrorPanel::collect(const Context& context)
   contents_.runs.clear();
   std::erase_if(known_, [&](const auto& entry) { return entry.first != 0 && !context.comparing.pinned().find(entry.first); });
   for (const PinnedRun& pin : context.comparing.pinned().runs())
-    if (const RunLines& of_pin = lines(pin.id, pin.history); pin.shown && !of_pin.empty())
-      contents_.runs.push_back({pin.name, pin.colour, 1.5f, &of_pin});
+    if (const RunLines& pin_lines = lines(pin.id, pin.history); pin.shown && !pin_lines.empty())
+      contents_.runs.push_back({pin.name, pin.colour, 1.5f, &pin_lines});
   if (const RunLines& present = lines(0, context.run.error_history()); !present.empty())
     contents_.runs.push_back({this_run, colour::on_dark, 2, &present});
 }
@@ -167,11 +167,11 @@ void ErrorPanel::draw_pin(const Context& context, const PinnedRun& pin)
 /// The run's slope, and how much faster the run in hand is at equal error: the error and both times belong to it.
 std::string ErrorPanel::findings(const Context& context, const PinnedRun& pin)
 {
-  const RunLines &of_pin = lines(pin.id, pin.history), &present = lines(0, context.run.error_history());
-  if (of_pin.empty()) return fmt::format("no {} in its history", contents_.metric.empty() ? "error" : contents_.metric);
+  const RunLines &pin_lines = lines(pin.id, pin.history), &present = lines(0, context.run.error_history());
+  if (pin_lines.empty()) return fmt::format("no {} in its history", contents_.metric.empty() ? "error" : contents_.metric);
   std::string text;
-  if (const auto& fit = of_pin.judged().fit) text = fmt::format("slope {:.2f}; ", fit->exponent);
-  const auto equal = speed_up(of_pin, present);
+  if (const auto& fit = pin_lines.judged().fit) text = fmt::format("slope {:.2f}; ", fit->exponent);
+  const auto equal = speed_up(pin_lines, present);
   if (!equal) return text + "no error yet that both runs came to";
   return text + fmt::format("at {} {:.3g}{}: {:.3g} s, this run {:.3g} s, {:.3g} times as fast", contents_.metric, equal->error,
                             equal->by_estimate ? " by both estimates" : "", equal->seconds_a, equal->seconds_b, equal->speed_up());

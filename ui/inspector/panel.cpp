@@ -232,7 +232,7 @@ void InspectorPanel::draw_region(const Context& context)
   }
   const HeldPicture other = context.comparing.other_picture();
   const std::string other_name = context.comparing.comparison().pin == 0 ? "reference" : other.pixels.name;
-  want_statistics(statistics_, context.tasks, {picture, other, other_name, *region, context.preset() ? context.preset()->white : 1});
+  request_statistics(statistics_, context.tasks, {picture, other, other_name, *region, context.preset() ? context.preset()->white : 1});
   const auto& statistics = statistics_.newest();
   if (!statistics) return draw_wrapped(colour::quiet_text, "The statistics are being made.");
   if (places_.button("Copy as CSV", "copy region")) ImGui::SetClipboardText(to_csv(*statistics).c_str());

@@ -180,25 +180,25 @@ std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int heig
 
 RegionStatistics region_statistics(RegionRequest request)
 {
-  RegionStatistics of_region;
+  RegionStatistics statistics;
   request.region = *cut_to(request.region, request.picture.pixels.width, request.picture.pixels.height);
   const std::vector<Rgb> run = pixels_of(request.picture.pixels, request.region);
-  of_region.pictures.push_back(statistics("run", run, request.white));
+  statistics.pictures.push_back(statistics("run", run, request.white));
   if (request.other.owner) {
     const std::vector<Rgb> other = pixels_of(request.other.pixels, request.region);
     std::vector<Rgb> difference = run;
     for (std::size_t i = 0; i < run.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c) difference[i][c] -= other[i][c];
-    of_region.pictures.push_back(statistics(request.other_name, other, request.white));
-    of_region.pictures.push_back(statistics("difference", difference, request.white));
-    of_region.histogram = histogram({&run, &other}, request.white);
+    statistics.pictures.push_back(statistics(request.other_name, other, request.white));
+    statistics.pictures.push_back(statistics("difference", difference, request.white));
+    statistics.histogram = histogram({&run, &other}, request.white);
   } else
-    of_region.histogram = histogram({&run}, request.white);
-  of_region.of = std::move(request);
-  return of_region;
+    statistics.histogram = histogram({&run}, request.white);
+  statistics.of = std::move(request);
+  return statistics;
 }
 
-void want_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request)
+void request_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request)
 {
   const auto is_same_but_picture = [&](const RegionRequest& of) { // whose region is cut to its picture
     return of.region == cut_to(request.region, request.picture.pixels.width, request.picture.pixels.height) &&

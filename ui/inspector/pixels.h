@@ -66,7 +66,7 @@ std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int heig
 /// The region reaches into the picture; both pictures have one size.
 RegionStatistics region_statistics(RegionRequest request);
 /// Once a frame: NewestResult::want(), as medians of a large picture take a tenth of a second.
-void want_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request);
+void request_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request);
 /// A row a picture and quantity, under a line of names.
 std::string to_csv(const RegionStatistics& statistics);
 

@@ -109,7 +109,7 @@ void ParametersPanel::carry_out(const Context& context)
       for (const auto& [edit, problem] : draft_.problems())
         if (is_inside(asked.pointer, edit)) reveal_ = shown_at(problem);
   }
-  if (std::exchange(let_go_, false)) context.push(command::EndGesture{});
+  if (std::exchange(ended_, false)) context.push(command::EndGesture{});
 }
 
 void ParametersPanel::ask(std::string label, const std::string& pointer, Json value, bool live)
@@ -120,11 +120,11 @@ void ParametersPanel::ask(std::string label, const std::string& pointer, Json va
 /// What the run found wrong with the preset is said at its field, too.
 void ParametersPanel::follow_run(const Context& context)
 {
-  told_.reset();
+  run_problem_.reset();
   const std::optional<Error>& error = context.run.status().error;
   if (!error) return;
   const std::string field = preset::field_of(*context.preset(), error->place());
-  if (!field.empty()) told_ = {field, field, error->text()};
+  if (!field.empty()) run_problem_ = {field, field, error->text()};
 }
 
 void ParametersPanel::draw_top()
@@ -254,7 +254,7 @@ void ParametersPanel::draw_problem(const std::string& pointer, bool all)
   if (typing && wrong_) draw(*wrong_);
   for (const auto& [edit, problem] : draft_.problems())
     if (!typing || !is_inside(edit, pointer)) draw(problem);
-  if (told_) draw(*told_);
+  if (run_problem_) draw(*run_problem_);
 }
 
 /// What is wrong elsewhere because of an edit is said where the edit was made.
@@ -265,7 +265,7 @@ std::string ParametersPanel::shown_at(const Problem& problem)
 
 bool ParametersPanel::is_wanted(const Outline& o, const Json& value, const std::string& pointer) const
 {
-  if (o.of_engine && draft_.value()["engine"] != o.field.name) return false;
+  if (o.is_engine_settings && draft_.value()["engine"] != o.field.name) return false;
   if (!is_searching()) return true;
   if (only_changed_ && !is_changed(o, value)) return false;
   if (has_words(fmt::format("{} {} {}", dotted(pointer), o.field.sentence, o.field.unit), search_)) return true;

@@ -77,13 +77,13 @@ private:
   std::string search_;
   bool only_changed_ = false;
   std::vector<PendingEdit> asked_;
-  bool let_go_ = false;         ///< a drag ended in this frame
+  bool ended_ = false;         ///< a drag ended in this frame
   std::string number_typed_;    ///< the number that is a text field in place of one to drag,
   bool number_focused_ = false; ///< and has the keyboard
   std::string typed_at_;        ///< the field whose text is being typed,
   std::string typed_;           ///< that text, and what is wrong with it
   std::optional<Problem> wrong_;
-  std::optional<Problem> told_;    ///< the error of the run
+  std::optional<Problem> run_problem_;    ///< the error of the run
   std::string reveal_;             ///< the pointer of a field that is to be brought into sight
   Selection revealed_;             ///< what was selected when its fields were brought into sight last
   std::string help_;               ///< of the field under the mouse

@@ -175,8 +175,8 @@ void ParametersPanel::draw_number(const Number& number, const Json& value, const
   if (ImGui::IsItemActivated()) gestures_.begin();
   if (!dragged.is_null() && number.bounds.contain(dragged.get<double>())) ask(dotted(pointer), pointer, dragged, true);
   if (!ImGui::IsItemDeactivated()) return;
-  let_go_ = ImGui::IsItemDeactivatedAfterEdit();
-  if (let_go_) return;
+  ended_ = ImGui::IsItemDeactivatedAfterEdit();
+  if (ended_) return;
   number_typed_ = pointer;
   number_focused_ = false;
 }

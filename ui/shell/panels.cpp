@@ -62,8 +62,8 @@ bool can_close(const PanelEntry& entry) { return entry.name != panel_table().fro
 
 bool is_open(const PanelEntry& entry, const Context& context)
 {
-  const auto of_engine = context.settings.engines.find(context.engine());
-  return of_engine == context.settings.engines.end() || !of_engine->second.closed.contains(std::string(entry.name));
+  const auto engine_layout = context.settings.engines.find(context.engine());
+  return engine_layout == context.settings.engines.end() || !engine_layout->second.closed.contains(std::string(entry.name));
 }
 
 bool is_seen(const PanelEntry& entry)

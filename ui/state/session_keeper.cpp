@@ -202,14 +202,14 @@ std::string SessionKeeper::Writer::write(const Work& work)
 
 void SessionKeeper::say_once(Workbench& workbench, const std::string& error)
 {
-  if (error == std::exchange(said_, error)) return;
+  if (error == std::exchange(last_error_, error)) return;
   workbench.apply({command::Report{error + "; the window goes on, but would lose its edits if it ended now: save the preset elsewhere"}});
 }
 
 void SessionKeeper::written(Workbench& workbench, const std::string& error)
 {
   if (error.empty()) {
-    said_.clear();
+    last_error_.clear();
     if (!newest_->replaces.empty()) {
       taken_over_.clear();
       taken_over_lock_.reset();

@@ -60,7 +60,7 @@ private:
   FileLock taken_over_lock_;         ///< its
   std::optional<Work> newest_;       ///< what was written last, or is being written
   TaskKey writes_;
-  std::string said_; ///< the error that was said last
+  std::string last_error_; ///< the error that was said last
   Clock::time_point next_{};
 };
 

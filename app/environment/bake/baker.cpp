@@ -129,10 +129,10 @@ void Baker::finish_sphere(std::size_t direction, std::size_t sphere, double scal
   film_.RawBuffer::read(sums.data(), bytes, sphere * bytes);
   for_ranges(texels_.size(), 1 << 14, [&](std::size_t, const Range& range) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
-      const std::int64_t* const of_texel = &sums[texels_[i] * task_.sums_a_texel()];
+      const std::int64_t* const texel_sums = &sums[texels_[i] * task_.sums_a_texel()];
       for (std::size_t c = 0; c < channels; ++c)
-        bake_.light[(first + i) * channels + c] = upper_half(scale * static_cast<double>(of_texel[c]));
-      const glm::dvec3 way(of_texel[channels], of_texel[channels + 1], of_texel[channels + 2]);
+        bake_.light[(first + i) * channels + c] = upper_half(scale * static_cast<double>(texel_sums[c]));
+      const glm::dvec3 way(texel_sums[channels], texel_sums[channels + 1], texel_sums[channels + 2]);
       bake_.ways[first + i] = way == glm::dvec3(0) ? outward_[texels_[i]] : static_cast<std::uint16_t>(Bake::way_map.texel(way));
     }
   });

@@ -114,13 +114,13 @@ glm::dvec3 nearest_point(const glm::dvec3& a, const glm::dvec3& b, const glm::dv
   const auto beyond = [&](const glm::dvec3& p, const glm::dvec3& q) { return glm::dot(glm::cross(q - p, -p), normal) < 0; };
   if (glm::dot(normal, normal) > 0 && !beyond(a, b) && !beyond(b, c) && !beyond(c, a))
     return glm::dot(a, normal) / glm::dot(normal, normal) * normal;
-  const auto of_edge = [](const glm::dvec3& p, const glm::dvec3& q) {
+  const auto nearest_on_edge = [](const glm::dvec3& p, const glm::dvec3& q) {
     const glm::dvec3 way = q - p;
     const double length2 = glm::dot(way, way), along = length2 > 0 ? std::clamp(-glm::dot(p, way) / length2, 0.0, 1.0) : 0;
     return p + along * way;
   };
   const auto nearer = [](const glm::dvec3& p, const glm::dvec3& q) { return glm::dot(q, q) < glm::dot(p, p) ? q : p; };
-  return nearer(nearer(of_edge(a, b), of_edge(b, c)), of_edge(c, a));
+  return nearer(nearer(nearest_on_edge(a, b), nearest_on_edge(b, c)), nearest_on_edge(c, a));
 }
 
 /// A triangle or an ellipsoid.

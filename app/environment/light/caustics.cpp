@@ -54,8 +54,8 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, Technique 
       radii_(compute::Buffer(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))), sets_(context, "turned sets", 1)
 {
   const auto channels = static_cast<std::size_t>(bake.channels);
-  stored_ = compute::Buffer<std::uint16_t>::of_host(context, "caustic spheres", bake.light);
-  ways_ = compute::Buffer<std::uint16_t>::of_host(context, "ways through spheres", bake.ways);
+  stored_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "caustic spheres", bake.light);
+  ways_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "ways through spheres", bake.ways);
   if (technique != Technique::eight_sets) one_by_one_.emplace(technique, bake.light, bake.directions.size(), channels, context);
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
@@ -147,8 +147,8 @@ OneByOne::OneByOne(Technique technique, const std::vector<std::uint16_t>& stored
   const std::size_t items = stored.size() / directions;
   if (has_buffers(technique))
     for (std::size_t i = 0; i < directions; ++i) {
-      of_direction_.emplace_back(context, "caustic spheres of one direction", items);
-      of_direction_.back().write(std::span(stored).subspan(i * items, items));
+      direction_spheres_.emplace_back(context, "caustic spheres of one direction", items);
+      direction_spheres_.back().write(std::span(stored).subspan(i * items, items));
     }
   if (compiles(technique)) compiled_ = compute::Buffer<float>(context, "compiled spheres", 3 * items / channels);
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(channels)},
@@ -207,7 +207,7 @@ void OneByOne::run(compute::Kernel& kernel, std::uint32_t items, const TurnedSph
     static constexpr std::array<std::string_view, 4> names{"stored_0", "stored_1", "stored_2", "stored_3"};
     for (std::size_t i = 0; has_buffers(technique_) && i < names.size(); ++i) {
       const std::size_t direction = i < launch.directions.size() ? static_cast<std::size_t>(launch.directions[i]) : 0;
-      shared.emplace_back(names[i], of_direction_[direction]);
+      shared.emplace_back(names[i], direction_spheres_[direction]);
     }
     kernel.run(items, items_per_group, shared,
                {{"sets", turned.sets},

@@ -67,7 +67,7 @@ private:
 
   Technique technique_;
   compute::Context context_;
-  std::vector<compute::Buffer<std::uint16_t>> of_direction_; ///< [direction], or all in TurnedSpheres::stored
+  std::vector<compute::Buffer<std::uint16_t>> direction_spheres_; ///< [direction], or all in TurnedSpheres::stored
   compute::Buffer<float> compiled_;                          ///< [sphere][texel of the stored form][3]
   std::vector<Launch> launches_;
   compute::Kernel cast_, compile_, cast_compiled_;

@@ -42,7 +42,7 @@ public:
   {
     const Rect& r = light.rect;
     const glm::dvec3 own = flux_of({{r.x0, r.y0}, {r.x1, r.y1}});
-    of_dropped_ = glm::max(light.flux - own, glm::dvec3(0)) / std::exp2(halvings);
+    dropped_flux_ = glm::max(light.flux - own, glm::dvec3(0)) / std::exp2(halvings);
     for (int c = 0; c < 3; ++c)
       if (own[c] > 0) parts_[c] = 1 / own[c];
     halve({{r.x0, r.y0}, {r.x1, r.y1}}, {});
@@ -121,14 +121,14 @@ private:
     column.low.x = std::max(cell.low.x, std::floor(x));
     column.high.x = std::min(cell.high.x, std::floor(x) + 1);
     const double y = quantile(column, 1, part(1));
-    return {glm::normalize(position({light_.face, 2 * x / cube_.size - 1, 2 * y / cube_.size - 1})), flux_of(cell) + of_dropped_};
+    return {glm::normalize(position({light_.face, 2 * x / cube_.size - 1, 2 * y / cube_.size - 1})), flux_of(cell) + dropped_flux_};
   }
 
   const CubeMap& cube_;
   const Region& light_;
   int halvings_;
   LightSample* to_;
-  glm::dvec3 of_dropped_{0};
+  glm::dvec3 dropped_flux_{0};
   glm::dvec3 parts_{0}; ///< what a texel weighs for its flux in each channel
 };
 

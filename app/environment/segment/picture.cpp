@@ -99,12 +99,12 @@ private:
   {
     const int size = segmentation.cube_size;
     const CubeMap cube{size, {}};
-    std::vector<int> of_texel(cube.texel(face_count, 0, 0)), of_pixel;
+    std::vector<int> texel_regions(cube.texel(face_count, 0, 0)), pixel_regions;
     int number = 0;
     for (const std::vector<Region>* regions : {&segmentation.lights, &segmentation.dropped})
       for (const Region& region : *regions) {
         for (int y = region.rect.y0; y < region.rect.y1; ++y)
-          for (int x = region.rect.x0; x < region.rect.x1; ++x) of_texel[cube.texel(region.face, x, y)] = number;
+          for (int x = region.rect.x0; x < region.rect.x1; ++x) texel_regions[cube.texel(region.face, x, y)] = number;
         ++number;
       }
     for (int row = 0; row < height; ++row)
@@ -112,9 +112,9 @@ private:
         const double zenith = std::numbers::pi * (row + 0.5) / height,
                      azimuth = 2 * std::numbers::pi * (column + 0.5) / width - std::numbers::pi;
         const CubePoint at = met_point({std::sin(zenith) * std::sin(azimuth), std::cos(zenith), -std::sin(zenith) * std::cos(azimuth)});
-        of_pixel.push_back(of_texel[cube.texel(at.face, texel_of(at.s, size), texel_of(at.t, size))]);
+        pixel_regions.push_back(texel_regions[cube.texel(at.face, texel_of(at.s, size), texel_of(at.t, size))]);
       }
-    return of_pixel;
+    return pixel_regions;
   }
 
   SegmentPicture picture_;

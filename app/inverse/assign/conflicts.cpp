@@ -35,7 +35,7 @@ double ConflictSearch::misplaced(std::size_t facet, std::size_t receiver) const
   return 1 - well;
 }
 
-std::vector<double> ConflictSearch::of_facets() const
+std::vector<double> ConflictSearch::facet_conflicts() const
 {
   std::vector<double> most(slopes_.size());
   for_ranges(most.size(), 256, [&](std::size_t, Range range) {
@@ -101,7 +101,7 @@ std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const
   return best;
 }
 
-Conflicts ConflictSearch::of_pictures() const
+Conflicts ConflictSearch::picture_conflicts() const
 {
   const std::size_t count = light_.size();
   const double sent = light_sent(layout_, slopes_);

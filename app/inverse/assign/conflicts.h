@@ -20,11 +20,11 @@ public:
                  const std::vector<double>& heights, const std::vector<std::vector<double>>& light);
 
   /// For each facet the part of its light that is misplaced, in the picture where that is largest.
-  std::vector<double> of_facets() const;
+  std::vector<double> facet_conflicts() const;
 
   /// A facet would go where picture j gains most, were it alone. What is misplaced of it in j is put down to the others by what
   /// they would lose by that. Some facets speak for all: every one up to 32 a side.
-  Conflicts of_pictures() const;
+  Conflicts picture_conflicts() const;
 
 private:
   double misplaced(std::size_t facet, std::size_t receiver) const;

@@ -19,19 +19,19 @@ using FacetGrid = Eigen::MatrixXd; // (column, row): columns of facets vary fast
 struct Steps {
   Eigen::Index across, down;
   glm::dvec2 facet;
-  FacetGrid over_x, over_y; ///< how much a facet's neighbour at +x, or below, must be higher for their edges to meet in the middle
+  FacetGrid rise_x, rise_y; ///< how much a facet's neighbour at +x, or below, must be higher for their edges to meet in the middle
   FacetGrid reach;          ///< from a facet's middle to its highest corner
 };
 
 Steps steps_of(const Layout& layout, std::span<const glm::dvec2> gradients)
 {
   Steps s{layout.facets.x, layout.facets.y, layout.facet(), {}, {}, {}};
-  s.over_x = s.over_y = s.reach = FacetGrid::Zero(s.across, s.down);
+  s.rise_x = s.rise_y = s.reach = FacetGrid::Zero(s.across, s.down);
   const auto g = [&](Eigen::Index x, Eigen::Index y) { return gradients[static_cast<std::size_t>(y * s.across + x)]; };
   for (Eigen::Index y = 0; y < s.down; ++y)
     for (Eigen::Index x = 0; x < s.across; ++x) {
-      if (x + 1 < s.across) s.over_x(x, y) = (g(x, y).x + g(x + 1, y).x) * s.facet.x / 2;
-      if (y + 1 < s.down) s.over_y(x, y) = -(g(x, y).y + g(x, y + 1).y) * s.facet.y / 2;
+      if (x + 1 < s.across) s.rise_x(x, y) = (g(x, y).x + g(x + 1, y).x) * s.facet.x / 2;
+      if (y + 1 < s.down) s.rise_y(x, y) = -(g(x, y).y + g(x, y + 1).y) * s.facet.y / 2;
       s.reach(x, y) = (std::abs(g(x, y).x) * s.facet.x + std::abs(g(x, y).y) * s.facet.y) / 2;
     }
   return s;
@@ -43,7 +43,7 @@ FacetGrid free_heights(const Steps& s)
   FacetGrid right = FacetGrid::Zero(s.across, s.down);
   for (Eigen::Index y = 0; y < s.down; ++y)
     for (Eigen::Index x = 0; x < s.across; ++x) {
-      const double to_right = s.facet.y * s.over_x(x, y), to_below = s.facet.x * s.over_y(x, y);
+      const double to_right = s.facet.y * s.rise_x(x, y), to_below = s.facet.x * s.rise_y(x, y);
       right(x, y) -= to_right + to_below;
       if (x + 1 < s.across) right(x + 1, y) += to_right;
       if (y + 1 < s.down) right(x, y + 1) += to_below;
@@ -62,10 +62,10 @@ double between_neighbours(const Steps& s, const FacetGrid& h, Eigen::Index x, Ei
     sum += length * height;
     weight += length;
   };
-  if (x > 0) add(h(x - 1, y) + s.over_x(x - 1, y), s.facet.y);
-  if (x + 1 < s.across) add(h(x + 1, y) - s.over_x(x, y), s.facet.y);
-  if (y > 0) add(h(x, y - 1) + s.over_y(x, y - 1), s.facet.x);
-  if (y + 1 < s.down) add(h(x, y + 1) - s.over_y(x, y), s.facet.x);
+  if (x > 0) add(h(x - 1, y) + s.rise_x(x - 1, y), s.facet.y);
+  if (x + 1 < s.across) add(h(x + 1, y) - s.rise_x(x, y), s.facet.y);
+  if (y > 0) add(h(x, y - 1) + s.rise_y(x, y - 1), s.facet.x);
+  if (y + 1 < s.down) add(h(x, y + 1) - s.rise_y(x, y), s.facet.x);
   return weight > 0 ? sum / weight : 0;
 }
 

@@ -200,27 +200,27 @@ private:
                              const glm::dvec2& at_a, const glm::dvec2& at_b, Part part)
   {
     const auto [ap, aq, bp, bq] = ends;
-    const double over_a = ap.z - aq.z, over_b = bp.z - bq.z;
-    if (part == Part::wall) measure(over_a, over_b, glm::length(at_b - at_a));
+    const double height_a = ap.z - aq.z, height_b = bp.z - bq.z;
+    if (part == Part::wall) measure(height_a, height_b, glm::length(at_b - at_a));
     const std::vector<Vertex> end_a = end_of_wall(a, wall_a), end_b = end_of_wall(b, wall_b);
-    if (over_a * over_b >= 0) {
-      strip(end_a, end_b, over_a + over_b < 0, part);
+    if (height_a * height_b >= 0) {
+      strip(end_a, end_b, height_a + height_b < 0, part);
       return std::nullopt;
     }
-    const double t = over_a / (over_a - over_b);
+    const double t = height_a / (height_a - height_b);
     const Vertex crossing{ap.z + t * (bp.z - ap.z), static_cast<std::uint32_t>(solid_.mesh.positions.size())};
     solid_.mesh.positions.emplace_back(glm::vec3(glm::dvec3(at_a + t * (at_b - at_a), crossing.z)));
-    strip(end_a, {crossing}, over_a < 0, part);
-    strip({crossing}, end_b, over_b < 0, part);
+    strip(end_a, {crossing}, height_a < 0, part);
+    strip({crossing}, end_b, height_b < 0, part);
     return crossing;
   }
 
   /// A wall that is over_a high at one end and over_b at the other; of different signs where the facets' edges cross.
-  void measure(double over_a, double over_b, double length)
+  void measure(double height_a, double height_b, double length)
   {
-    const double a = std::abs(over_a), b = std::abs(over_b);
+    const double a = std::abs(height_a), b = std::abs(height_b);
     solid_.highest_wall = std::max({solid_.highest_wall, a, b});
-    if (a + b > 0) solid_.wall_area += length / 2 * (over_a * over_b >= 0 ? a + b : (a * a + b * b) / (a + b));
+    if (a + b > 0) solid_.wall_area += length / 2 * (height_a * height_b >= 0 ? a + b : (a * a + b * b) / (a + b));
   }
 
   Part part_between(int column, int row, int other_column, int other_row) const

@@ -110,8 +110,8 @@ std::uint64_t Lens::bytes(const Layout& layout)
 {
   constexpr std::uint64_t grids = 24; // of the transport, the flow, and of light that is added up in blocks
   const auto parts = static_cast<std::uint64_t>(parts_of_facet(layout)), cells = static_cast<std::uint64_t>(most_cells(layout));
-  const std::uint64_t of_part = sizeof(double) + sizeof(glm::dvec2) + (layout.incoming.empty() ? 0 : sizeof(Incoming));
-  return layout.facet_count() * parts * parts * of_part + grids * sizeof(double) * cells * cells;
+  const std::uint64_t bytes_a_node = sizeof(double) + sizeof(glm::dvec2) + (layout.incoming.empty() ? 0 : sizeof(Incoming));
+  return layout.facet_count() * parts * parts * bytes_a_node + grids * sizeof(double) * cells * cells;
 }
 
 /// The facet about a point, or the nearest one.

@@ -214,9 +214,9 @@ void EmissionGuide::learn(std::span<const std::int64_t> moments, std::span<const
     if (total > 0)
       for (std::size_t c = 0; c < cells; ++c) chance[c] = even_part / cells + (1 - even_part) * deviation[c] / total;
     std::copy(chance.begin(), chance.end(), chance_.begin() + static_cast<std::ptrdiff_t>(first));
-    const std::vector<double> of_xy = sums(chance, bins_z);
-    append_cdfs(sums(of_xy, bins_y), bins_x, table_);
-    append_cdfs(of_xy, bins_y, table_);
+    const std::vector<double> chance_xy = sums(chance, bins_z);
+    append_cdfs(sums(chance_xy, bins_y), bins_x, table_);
+    append_cdfs(chance_xy, bins_y, table_);
     append_cdfs(chance, bins_z, table_);
   }
 }

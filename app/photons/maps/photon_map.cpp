@@ -90,10 +90,10 @@ void PhotonMap::build(double cell_edge, std::uint32_t slots)
 
 unsigned eye_paths_a_pass(const scene::Scene& scene, const scene::Bvh& bvh, unsigned photons_per_pass)
 {
-  constexpr double most = 64, of_photons = 1.0 / 3; // a path takes about twice as long as a photon
+  constexpr double most = 64, share_of_work = 1.0 / 3; // a path takes about twice as long as a photon
   if (!tracing::may_see_glass_or_mirror(scene)) return 1;
   const double pixels = static_cast<double>(scene.camera.pixels()) * bent_share(scene, bvh);
-  return static_cast<unsigned>(std::clamp(of_photons * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
+  return static_cast<unsigned>(std::clamp(share_of_work * photons_per_pass / std::max(pixels, 1.0), 1.0, most));
 }
 
 PlanPart plan_gathering(const PlanInput& input, plan::Pass pass, std::uint32_t photons)

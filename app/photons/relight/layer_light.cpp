@@ -107,13 +107,13 @@ LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTab
   return weights;
 }
 
-void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t of_light, int cluster, int reflector,
+void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t light_index, int cluster, int reflector,
                   double value, std::vector<double>& radiance)
 {
   const auto add = [&](int index) {
     const auto w = static_cast<std::size_t>(index); // a step of the grid is a nanometre
     radiance[w] +=
-        value * light.power[of_light] * light.spectra[of_light][w] * reflectance(tables, static_cast<std::size_t>(reflector), index);
+        value * light.power[light_index] * light.spectra[light_index][w] * reflectance(tables, static_cast<std::size_t>(reflector), index);
   };
   if (cluster >= 0)
     for (const int w : tables.clusters[static_cast<std::size_t>(cluster)]) add(w);

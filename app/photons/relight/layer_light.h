@@ -35,7 +35,7 @@ LayerWeights layer_weights(const LayerLight& light, const tracing::WavelengthTab
 
 /// Adds to radiance [wavelength], W m^-2 sr^-1 nm^-1, what a layer of this value is where a reflector is seen. cluster: of
 /// WavelengthTables::clusters; -1: all wavelengths.
-void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t of_light, int cluster, int reflector,
+void add_radiance(const LayerLight& light, const tracing::WavelengthTables& tables, std::size_t light_index, int cluster, int reflector,
                   double value, std::vector<double>& radiance);
 
 /// What kernels ask of reflectors where a pixel's survey missed one.

@@ -59,8 +59,8 @@ PixelTruth pixel_truth(const preset::Light& light, int resolution, int row, int 
 
 /// How far a layer is from the truth: of the sum over all pixels, and of the pixels each by itself as chi-square, both in sigma.
 struct Distance {
-  double of_sum = 0, of_pixels = 0, ratio = 1;
-  double worst() const { return std::abs(of_sum) > std::abs(of_pixels) ? of_sum : of_pixels; }
+  double sum_error = 0, pixel_error = 0, ratio = 1;
+  double worst() const { return std::abs(sum_error) > std::abs(pixel_error) ? sum_error : pixel_error; }
 };
 /// variance(truth): of a pixel's measured irradiance.
 template <class Variance>

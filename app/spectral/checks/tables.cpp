@@ -48,7 +48,7 @@ std::vector<float4> sums(const compute::Context& context, const tracing::Wavelen
       crossed.push_back(length);
     }
   const compute::Buffer<float4> out(context, "sums", which.size());
-  run_over(context, "attenuated", which.size(),
+  run_kernel(context, "attenuated", which.size(),
            {{"first", compute::Buffer(context, "first", t.cluster_first)},
             {"wavelengths", compute::Buffer(context, "wavelengths", t.cluster_wavelengths)},
             {"coefficient", compute::Buffer(context, "coefficient", coefficient)},
@@ -134,7 +134,7 @@ std::vector<Photon> emit(const compute::Context& context, std::uint64_t seed, co
   on_host.first_target = 0;
   on_host.target_count = static_cast<int>(targets.size());
   const compute::Buffer<float4> out(context, "photons", 2 * photon_count);
-  run_over(context, "emissions", photon_count,
+  run_kernel(context, "emissions", photon_count,
            {{"lights", compute::Buffer(context, "lights", tables.lights)},
             {"light", 0},
             {"targets", compute::Buffer(context, "targets", targets)},
@@ -169,7 +169,7 @@ double one_minus_cos(double sine) { return 1 - std::sqrt(1 - sine * sine); }
 /// A sphere along +z, one in its shadow, one apart along -x.
 const std::vector<float4> three_spheres{{0, 0, 3, 1}, {0.2f, 0, 6, 0.5f}, {-2, 0, 0, 0.5f}};
 
-Result of_sigma(double z, std::string detail) { return judged(z, 6, "sigma", std::move(detail)); }
+Result judged_in_sigma(double z, std::string detail) { return judged(z, 6, "sigma", std::move(detail)); }
 
 Result point(const compute::Context& context, std::uint64_t seed)
 {
@@ -177,7 +177,7 @@ Result point(const compute::Context& context, std::uint64_t seed)
   light.position = {0, 8, 0};
   light.power_w = 7;
   const double truth = 7 * (one_minus_cos(1 / 3.0) + one_minus_cos(0.25)) / 2;
-  return of_sigma(z_of(emit(context, seed, light, three_spheres), watts_of, truth),
+  return judged_in_sigma(z_of(emit(context, seed, light, three_spheres), watts_of, truth),
                   fmt::format("{} photons towards three spheres, one in another's shadow, against power times their solid angle over 4 pi",
                               photon_count));
 }
@@ -210,7 +210,7 @@ Result spot(const compute::Context& context, std::uint64_t seed)
   const double cone = 2 * pi * (1 - std::cos(pi / 3)), apart = shared_steradians(pi / 3, std::asin(0.25), pi / 3);
   const double z = z_of(emit(context, seed, wide, spheres), watts_of, 7 * (2 * pi * one_minus_cos(1 / 3.0) + apart) / cone);
   const double z_narrow = z_of(emit(context, seed, narrow, spheres), watts_of, 7);
-  return of_sigma(std::abs(z) > std::abs(z_narrow) ? z : z_narrow,
+  return judged_in_sigma(std::abs(z) > std::abs(z_narrow) ? z : z_narrow,
                   "a cone of 60 degrees about three spheres, one across its edge, and one of 5 degrees inside a sphere, against power "
                   "times the part of the cone");
 }
@@ -223,7 +223,7 @@ Result directional(const compute::Context& context, std::uint64_t seed)
   light.irradiance_w_m2 = 3;
   // The second sphere lies in the first one's shadow, the third apart.
   const double truth = 3 * pi * (1 + 0.49);
-  return of_sigma(z_of(emit(context, seed, light, {{0, 0, 0, 1}, {0, -2.4f, 1.8f, 0.5f}, {5, 0, 0, 0.7f}}), watts_of, truth),
+  return judged_in_sigma(z_of(emit(context, seed, light, {{0, 0, 0, 1}, {0, -2.4f, 1.8f, 0.5f}, {5, 0, 0, 0.7f}}), watts_of, truth),
                   "photons towards three spheres, one in another's shadow, against irradiance times the area of the shadow");
 }
 
@@ -240,7 +240,7 @@ Result area(const compute::Context& context, std::uint64_t seed)
   const double z = z_of(photons, watts_of, 7);
   const double z_cosine = z_of(
       photons, [](const Photon& p) { return -p.watts * p.direction[1]; }, 7 * 2.0 / 3);
-  return of_sigma(std::abs(z) > std::abs(z_cosine) ? z : z_cosine,
+  return judged_in_sigma(std::abs(z) > std::abs(z_cosine) ? z : z_cosine,
                   "photons in all directions, against the whole power and a mean cosine of 2/3");
 }
 

@@ -135,7 +135,7 @@ ClusterFigures figures_of(photons::Clustering clustering, const optics::Spectrum
   ClusterFigures figures;
   figures.saving = static_cast<double>(optics::wavelength_count) / static_cast<double>(clustering.clusters.size());
   figures.at_45 = spread_of(clustering, n, angle_at_45_deg);
-  figures.over_angles = spread_of(clustering, n, mean_angle_deg);
+  figures.mean_over_angles = spread_of(clustering, n, mean_angle_deg);
   figures.clustering = std::move(clustering);
   return figures;
 }

@@ -59,7 +59,7 @@ struct ClusterFigures {
   photons::Clustering clustering;
   double saving = 1;  ///< 401 / clusters: how many times fewer paths than brute force
   Spread at_45;       ///< at an angle of incidence of 45 degrees
-  Spread over_angles; ///< the mean over 0..89 degrees of incidence, which is what the threshold alpha is about
+  Spread mean_over_angles; ///< the mean over 0..89 degrees of incidence, which is what the threshold alpha is about
 };
 
 /// n: the curve that was clustered.

@@ -179,7 +179,7 @@ void DispersionPanel::draw_methods(const Context& context) const
     cell(fmt::format("{}", figures.clustering.clusters.size()));
     cell(fmt::format("{:.3g}", figures.saving));
     cell(spread_text(figures.at_45));
-    cell(spread_text(figures.over_angles));
+    cell(spread_text(figures.mean_over_angles));
     ImGui::EndDisabled();
   }
   ImGui::EndTable();
