@@ -51,16 +51,16 @@ void end(job::Worker* worker)
   delete worker;
 }
 
-class Run {
+class RunHandle {
 public:
-  Run(const preset::Preset& preset, std::string device) : process_(::getpid()), worker_(new job::Worker, &end)
+  RunHandle(const preset::Preset& preset, std::string device) : process_(::getpid()), worker_(new job::Worker, &end)
   {
     use_opencl();
     worker_->start([this, preset, device = std::move(device)] { return make(preset, device); });
   }
-  ~Run() { close(); }
-  Run(const Run&) = delete;
-  Run& operator=(const Run&) = delete;
+  ~RunHandle() { close(); }
+  RunHandle(const RunHandle&) = delete;
+  RunHandle& operator=(const RunHandle&) = delete;
 
   /// A forked process has none of the threads: what waits for them would wait for ever, and a mutex may be locked for ever.
   bool is_of_this_process() const { return process_ == ::getpid(); }
@@ -170,7 +170,7 @@ private:
 
 /// In a forked process a run stays where it is: its threads may have left anything of it half done.
 struct Deleter {
-  void operator()(Run* run) const
+  void operator()(RunHandle* run) const
   {
     if (run->is_of_this_process()) delete run;
   }
@@ -199,23 +199,23 @@ void add_runs(py::module_& module)
               lent<double, job::PixelSpectrum>(spectrum, layer.radiance, {static_cast<py::ssize_t>(layer.radiance.size())});
         return layers;
       });
-  py::class_<Run, std::unique_ptr<Run, Deleter>>(module, "Run")
+  py::class_<RunHandle, std::unique_ptr<RunHandle, Deleter>>(module, "Run")
       .def(py::init<const preset::Preset&, std::string>(), py::arg("preset"), py::arg("device"), released)
-      .def("state", [](const Run& run) { return word(run.status().state); })
-      .def("progress", [](const Run& run) { return run.status().progress; })
-      .def("doing", &Run::doing)
-      .def("notes", &Run::notes)
+      .def("state", [](const RunHandle& run) { return word(run.status().state); })
+      .def("progress", [](const RunHandle& run) { return run.status().progress; })
+      .def("doing", &RunHandle::doing)
+      .def("notes", &RunHandle::notes)
       .def("raise_failure",
-           [](const Run& run) {
+           [](const RunHandle& run) {
              if (const job::Status status = run.status(); status.state == job::State::failed && status.error) throw Error(*status.error);
            })
-      .def("snapshot", [](const Run& run) { return std::const_pointer_cast<job::Snapshot>(run.snapshot()); })
-      .def("stop", &Run::stop)
-      .def("pause", &Run::pause, py::arg("paused"))
-      .def("watch", &Run::watch, py::arg("pixel"))
-      .def("spectrum", [](const Run& run) { return std::const_pointer_cast<job::PixelSpectrum>(run.spectrum()); })
-      .def("save", &Run::save, py::arg("folder"), released)
-      .def("close", &Run::close, released);
+      .def("snapshot", [](const RunHandle& run) { return std::const_pointer_cast<job::Snapshot>(run.snapshot()); })
+      .def("stop", &RunHandle::stop)
+      .def("pause", &RunHandle::pause, py::arg("paused"))
+      .def("watch", &RunHandle::watch, py::arg("pixel"))
+      .def("spectrum", [](const RunHandle& run) { return std::const_pointer_cast<job::PixelSpectrum>(run.spectrum()); })
+      .def("save", &RunHandle::save, py::arg("folder"), released)
+      .def("close", &RunHandle::close, released);
 }
 
 } // namespace nephroid::python

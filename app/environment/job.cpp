@@ -436,7 +436,7 @@ private:
   std::optional<Renderer> renderer_;
   bool from_file_ = false;
   bool bakes_next_ = false;
-  std::unique_ptr<photons::Run> photons_; ///< null: there are none, or not yet
+  std::unique_ptr<photons::PhotonJob> photons_; ///< null: there are none, or not yet
   bool asked_for_photons_ = false;        ///< whether it is known which
   double passes_ahead_ = 0;               ///< of photons when the bake was done
   std::uint64_t baked_photons_ = 0;       ///< that the finished bake took here

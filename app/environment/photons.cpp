@@ -26,7 +26,7 @@ photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& 
   return plan;
 }
 
-std::unique_ptr<photons::Run> make_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
                                            const photons::RunPlan& plan, const compute::Context& context)
 {
   if (plan.layers == 0) return nullptr;

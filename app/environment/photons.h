@@ -9,7 +9,7 @@ namespace nephroid::environment {
 photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 
 /// plan: of the same preset and scene. Null where there are no caustics. Throws as photons::make_job.
-std::unique_ptr<photons::Run> make_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
+std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
                                            const photons::RunPlan& plan, const compute::Context& context);
 
 } // namespace nephroid::environment

@@ -51,9 +51,9 @@ struct TimedStage {
   bool caustics() const { return std::string_view(layer) == "caustic"; }
 };
 
-class PhotonJob final : public Run, public job::SpectrumSource {
+class PassesJob final : public PhotonJob, public job::SpectrumSource {
 public:
-  PhotonJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
+  PassesJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
             const compute::Context& context)
       : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white,
                plan.estimates_error ? 2u : 1u},
@@ -404,7 +404,7 @@ private:
   bool smooths_seen_ = false;    ///< what paths from the eye see of lights, as well as caustics
   bool shares_work_ = false;     ///< whether time is allocated by what it gains
   std::optional<BlockSmoothing> smoothing_;
-  std::vector<float> estimate_;  ///< Run::set_estimate
+  std::vector<float> estimate_;  ///< PhotonJob::set_estimate
   double smoothing_seconds_ = 0; ///< of all pictures since the program began; no work of the run's
   std::optional<double> stop_seconds_;
   std::int64_t passes_ = -1; ///< -1: until stop_seconds_, or until whoever steps it has enough
@@ -414,10 +414,10 @@ private:
 
 } // namespace
 
-std::unique_ptr<Run> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
+std::unique_ptr<PhotonJob> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
                               const compute::Context& context)
 {
-  return std::make_unique<PhotonJob>(preset, scene, bvh, plan, context);
+  return std::make_unique<PassesJob>(preset, scene, bvh, plan, context);
 }
 
 } // namespace nephroid::photons

@@ -33,7 +33,7 @@ RunPlan make_plan(const preset::Preset& preset, const Settings& settings, const 
                   const tracing::LeaveOut& leave_out);
 
 /// A job with what an engine needs that knows more than photons do.
-class Run : public job::Job {
+class PhotonJob : public job::Job {
 public:
   /// What the layer "caustic" is as somebody else knows it, without noise but not quite right: [pixel][3], over the preset's white. From
   /// now on it is mixed with what photons say (mixture.h). Empty: there is none.
@@ -51,7 +51,7 @@ public:
 
 /// The scene and tree are copied to the device; they need not outlive the call. plan: of the same preset and scene.
 /// Throws failed where the device has not enough memory, BuildError for a kernel that does not compile.
-std::unique_ptr<Run> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
+std::unique_ptr<PhotonJob> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
                               const compute::Context& context);
 
 } // namespace nephroid::photons

@@ -42,7 +42,7 @@ protected:
   std::vector<Queue> states() const
   {
     std::vector<Queue> all;
-    for (const SweepQueue::Run& run : workbench.sweep().runs()) all.push_back(run.state);
+    for (const SweepQueue::QueuedRun& run : workbench.sweep().runs()) all.push_back(run.state);
     return all;
   }
   std::vector<PinnedRun> pins() const { return workbench.comparing().pinned().all(); }

@@ -106,7 +106,7 @@ std::string heading(const Context& context)
   return fmt::format("Sweep: {:.0f} runs of {}", preset::count_runs(sweep), counted(sweep.size(), "field"));
 }
 
-std::string state_text(const SweepQueue::Run& run)
+std::string state_text(const SweepQueue::QueuedRun& run)
 {
   if (run.state == State::running) return fmt::format("{:.0f} %", 100 * run.part);
   constexpr const char* names[] = {"waiting", "running", "done", "failed", "stopped"}; // in the order of State
@@ -320,11 +320,11 @@ void SweepSection::set(const Context& context)
 /// The runs with their states; the one that begins comes into sight.
 void SweepSection::draw_queue(const Context& context)
 {
-  const std::vector<SweepQueue::Run>& runs = context.sweep.runs();
+  const std::vector<SweepQueue::QueuedRun>& runs = context.sweep.runs();
   const float line = ImGui::GetTextLineHeightWithSpacing(), em = ImGui::GetFontSize();
   constexpr std::size_t most_lines = 6;
   if (ImGui::BeginChild("queue", {0, line * (static_cast<float>(std::min(most_lines, runs.size())) + 0.5f)}, ImGuiChildFlags_Borders)) {
-    for (const SweepQueue::Run& run : runs) {
+    for (const SweepQueue::QueuedRun& run : runs) {
       ImGui::TextUnformatted(state_text(run).c_str());
       if (run.state == State::running && std::exchange(in_sight_, run.name) != run.name) ImGui::SetScrollHereY();
       ImGui::SameLine(4 * em);

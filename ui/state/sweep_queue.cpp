@@ -15,9 +15,9 @@ void SweepQueue::start(const preset::Preset& preset, const preset::Sweep& sweep)
   if (const double count = preset::count_runs(sweep); count > static_cast<double>(most_runs))
     throw bad_input(place, fmt::format("gives {:.0f} runs, whose pictures the window would keep", count),
                     fmt::format("expected at most {}", most_runs), "save the preset and use `nephroid run`");
-  std::vector<Run> runs;
+  std::vector<QueuedRun> runs;
   for (preset::SweptRun& swept : preset::swept_runs(preset, sweep)) {
-    Run& run = runs.emplace_back();
+    QueuedRun& run = runs.emplace_back();
     run.name = std::move(swept.name);
     if (swept.preset)
       run.preset = std::make_shared<const preset::Preset>(*std::move(swept.preset));
@@ -32,7 +32,7 @@ void SweepQueue::start(const preset::Preset& preset, const preset::Sweep& sweep)
 
 void SweepQueue::begin_next(RunInHand& run, const UndoStack* edits)
 {
-  const auto next = std::ranges::find(runs_, State::waiting, &Run::state);
+  const auto next = std::ranges::find(runs_, State::waiting, &QueuedRun::state);
   if (next == runs_.end()) {
     active_ = false;
     if (std::exchange(lent_, false)) run.take_back(edits);
@@ -47,7 +47,7 @@ void SweepQueue::begin_next(RunInHand& run, const UndoStack* edits)
 void SweepQueue::stop(RunInHand& run, const UndoStack* edits)
 {
   if (!std::exchange(active_, false)) return;
-  for (Run& swept : runs_)
+  for (QueuedRun& swept : runs_)
     if (swept.state == State::running || swept.state == State::waiting) swept.state = State::stopped;
   if (std::exchange(lent_, false)) run.take_back(edits);
 }
@@ -56,7 +56,7 @@ void SweepQueue::update(RunInHand& run, Comparing& comparing, const UndoStack* e
 {
   if (!active_) return;
   if (!lent_) return begin_next(run, edits);
-  Run& now = runs_[at_];
+  QueuedRun& now = runs_[at_];
   const job::Status& status = run.status();
   switch (status.state) {
   case job::State::finished:
@@ -77,7 +77,7 @@ void SweepQueue::update(RunInHand& run, Comparing& comparing, const UndoStack* e
 
 std::string SweepQueue::summary() const
 {
-  const auto count = [&](State state) { return std::ranges::count(runs_, state, &Run::state); };
+  const auto count = [&](State state) { return std::ranges::count(runs_, state, &QueuedRun::state); };
   std::string text = fmt::format("{} of {} done", count(State::done), runs_.size());
   if (count(State::failed) > 0) text += fmt::format(", {} failed", count(State::failed));
   if (count(State::stopped) > 0) text += fmt::format(", {} stopped", count(State::stopped));

@@ -18,7 +18,7 @@ public:
   static constexpr std::size_t most_runs = 64;
 
   enum class State { waiting, running, done, failed, stopped };
-  struct Run {
+  struct QueuedRun {
     std::string name;
     std::shared_ptr<const preset::Preset> preset; ///< null where it was refused
     State state = State::waiting;
@@ -37,14 +37,14 @@ public:
   /// Whether runs are to come or one is running.
   bool active() const { return active_; }
   /// Of the newest sweep that was started, in their order.
-  const std::vector<Run>& runs() const { return runs_; }
+  const std::vector<QueuedRun>& runs() const { return runs_; }
   /// "3 of 10 done, 1 failed".
   std::string summary() const;
 
 private:
   void begin_next(RunInHand& run, const UndoStack* edits);
 
-  std::vector<Run> runs_;
+  std::vector<QueuedRun> runs_;
   std::size_t at_ = 0; ///< which is running
   bool active_ = false, lent_ = false;
 };
