@@ -28,7 +28,7 @@ TEST_F(Runs, LeaveEveryFileOfTheContract)
 {
   const Ended ended = run("a", {"--passes", "3"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_EQ(ended.err, "") << "short runs and finished ones are quiet";
+  EXPECT_THAT(messages_of(ended), IsEmpty()) << "short runs and finished ones are quiet";
   EXPECT_THAT(ended.out, HasSubstr(file("a", "image.png").string() + ": 3 passes, 60000 photons"));
 
   const auto image = nephroid::image::read_image(file("a", "image.exr"));
@@ -218,7 +218,7 @@ TEST_F(Runs, JsonLinesEndWithTheResult)
   const Ended ended = run("a", {"--seconds", "1.2", "--json"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   const std::vector<json> all = json_lines(ended.out);
-  ASSERT_GE(all.size(), 3u);
+  ASSERT_GE(all.size(), 2u);
   double fraction = 0;
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     EXPECT_EQ(all[i]["type"], "progress");
@@ -243,7 +243,7 @@ TEST_F(Runs, SayOnATerminalThatTheyCompileKernels)
                   scratch.path().string(), NEPHROID_PROGRAM);
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_THAT(read_file(scratch.path() / "shown"), HasSubstr("\rplate  compiling kernels\033[K\r\033[K"));
-  EXPECT_EQ(run("b", {"--passes", "1"}).err, "") << "elsewhere it would be one line more to read";
+  EXPECT_THAT(messages_of(run("b", {"--passes", "1"})), IsEmpty()) << "elsewhere it would be one line more to read";
 }
 
 TEST_F(Runs, LeavePicturesAtTheTimesThatWereAskedFor)
@@ -267,19 +267,21 @@ TEST_F(Runs, LeavePicturesAtTheTimesThatWereAskedFor)
     EXPECT_TRUE(fs::exists(scratch.path() / "a" / made["picture"]));
     const double when = made["work_seconds"];
     EXPECT_GE(when, made["seconds"]);
-    EXPECT_LT(when, made["seconds"].get<double>() + 0.3) << "a step is short";
+    EXPECT_TRUE(std::ranges::none_of(history.rows, [&](const auto& r) { return r.seconds > made["seconds"] && r.seconds < when - 1e-5; }))
+        << "it is of the first step that ends after its time";
     const auto row =
         std::find_if(history.rows.begin(), history.rows.end(), [&](const auto& r) { return std::abs(r.seconds - when) < 1e-5; });
     ASSERT_NE(row, history.rows.end()) << "its error is its own";
     const double error = nephroid::job::error_in(history, *row, "estimated_lab_mean");
     EXPECT_NEAR(made["errors"]["estimated_lab_mean"], error, 1e-4 * error);
   }
-  EXPECT_LT(pictures[1]["errors"]["estimated_rel_l2"], pictures[0]["errors"]["estimated_rel_l2"]);
   const auto early = nephroid::image::read_image(file("a", "at-0000.2s.exr")), last = nephroid::image::read_image(file("a", "image.exr"));
   EXPECT_EQ(early.channels, last.channels);
+  if (pictures[0]["work_seconds"] > 0.3) return; // the machine stood still, and a step took as long as many
+  EXPECT_LT(pictures[1]["errors"]["estimated_rel_l2"], pictures[0]["errors"]["estimated_rel_l2"]);
   EXPECT_NE(early.data, last.data);
 
-  EXPECT_EQ(run("a", {"--passes", "1"}).err, "");
+  EXPECT_THAT(messages_of(run("a", {"--passes", "1"})), IsEmpty());
   EXPECT_FALSE(fs::exists(file("a", "at-0000.2s.png"))) << "another run's";
   EXPECT_FALSE(fs::exists(file("a", "pictures.json")));
 }
@@ -288,25 +290,29 @@ TEST_F(Runs, KeepTheirPicturesWhenTheyGoOn)
 {
   ASSERT_EQ(run("a", {"--seconds", ".5", "--pictures-at", ".2"}).exit_code, 0);
   const std::string before = read_file(file("a", "at-0000.2s.png"));
-  const Ended ended = run("a", {"--seconds", ".9", "--pictures-at", ".1,.2,.7", "--resume"});
+  // However long the last step took, the second picture is still to come.
+  const double later = std::ceil(10 * run_json("a")["work_seconds"].get<double>() + 1) / 10;
+  const Ended ended =
+      run("a", {"--seconds", fmt::to_string(later + 0.2), "--pictures-at", fmt::format(".1,.2,{}", later), "--resume"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("0.1 s of work are past"));
   EXPECT_THAT(ended.err, testing::Not(HasSubstr("0.2 s of work are past")));
-  EXPECT_THAT(ended.err, HasSubstr("at-0000.7s.png after 0.7 s of work, estimated_lab_mean "));
   EXPECT_TRUE(read_file(file("a", "at-0000.2s.png")) == before);
   ASSERT_EQ(run_json("a").at("pictures").size(), 2u);
   EXPECT_EQ(run_json("a")["pictures"][0]["seconds"], 0.2);
+  const std::string picture = run_json("a")["pictures"][1]["picture"];
+  EXPECT_THAT(ended.err, testing::ContainsRegex(picture + " after [0-9.]+ s of work, estimated_lab_mean "));
 
   // Killed after a picture and before the next checkpoint: the work is done again, and so is the picture.
   json list = json::parse(read_file(file("a", "pictures.json")));
   list[1]["work_seconds"] = 1000;
   write_file_whole(file("a", "pictures.json"), list.dump());
-  ASSERT_EQ(run("a", {"--seconds", "1", "--resume"}).exit_code, 0);
+  ASSERT_EQ(run("a", {"--seconds", fmt::to_string(later + 0.3), "--resume"}).exit_code, 0);
   EXPECT_EQ(run_json("a")["pictures"].size(), 1u);
-  EXPECT_FALSE(fs::exists(file("a", "at-0000.7s.png")));
+  EXPECT_FALSE(fs::exists(file("a", picture.c_str())));
 
   write_file_whole(file("a", "pictures.json"), "[{}, 3");
-  EXPECT_EQ(run("a", {"--seconds", "1.1", "--resume"}).exit_code, 0) << "a damaged list is none";
+  EXPECT_EQ(run("a", {"--seconds", fmt::to_string(later + 0.4), "--resume"}).exit_code, 0) << "a damaged list is none";
 }
 
 TEST_F(Runs, BadOutputFoldersAreRefusedBeforeRendering)
@@ -337,7 +343,7 @@ TEST_F(Runs, AFullDiskIsALineAndNoHalfFile)
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_EQ(ended.out, "");
   EXPECT_THAT(ended.err, HasSubstr("No space left on device; free some space"));
-  EXPECT_LE(lines(ended.err), 2u) << ended.err; // a warning at the first checkpoint, the error at the end
+  EXPECT_THAT(messages_of(ended), SizeIs(Le(2u))) << "a warning at the first checkpoint, the error at the end";
   for (const auto& entry : fs::directory_iterator(disk / "a")) {
     if (entry.path().filename() == "history.csv")
       EXPECT_NO_THROW(nephroid::measure::read_history(entry.path())); // small enough to fit, and whole

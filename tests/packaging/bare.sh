@@ -51,16 +51,17 @@ type=application/vnd.nephroid.preset+json
 [ "$(xdg-mime query default $type)" = org.nephroid.Nephroid.desktop ] || fail "a preset has no program"
 cat >opened <<'IN_X'
 gio open mine.nephroid.json
-for i in $(seq 60); do
-  window=$(xdotool search --onlyvisible --class '^nephroid$' | head -n 1) && [ -n "$window" ] && break
+for i in $(seq 300); do
+  window=$(xdotool search --onlyvisible --name mine | head -n 1) && [ -n "$window" ] && break
   sleep 1
 done
-sleep 15
+sleep 15 # the picture in out/ is of a run that is under way
 xdotool getwindowname "$window" | tee title
 tr '\0' ' ' </proc/"$(xdotool getwindowpid "$window")"/cmdline; echo
 import -window root window.png
-kill "$(xdotool getwindowpid "$window")"
-sleep 2
+process=$(xdotool getwindowpid "$window")
+kill "$process"
+while [ -e "/proc/$process" ]; do sleep 1; done
 IN_X
 xvfb-run -a -s '-screen 0 1280x800x24' bash opened
 mkdir -p "$OLDPWD/out" && cp window.png first-light/image.png words.png "$OLDPWD/out"

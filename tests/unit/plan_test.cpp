@@ -7,7 +7,7 @@
 #include "run/run.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
-#include "tests/support/process_state.h"
+#include "tests/support/program_test.h"
 
 #include <nlohmann/json.hpp>
 
@@ -357,26 +357,30 @@ TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal)
   EXPECT_EQ(progress_style(false), ProgressStyle::lines);
 }
 
-TEST(ProgressDisplay, JsonShowsTheEndWhateverTheRhythm)
+constexpr ProgressDisplay::Clock::time_point begin{};
+
+TEST(ProgressDisplay, JsonComesEachHalfSecondAndAtTheEnd)
 {
   testing::internal::CaptureStdout();
   {
-    ProgressDisplay display(ProgressStyle::json, {}, at(0, 0, 0, 0));
-    display.update(at(0.5, 1, 10, 1)); // within the first half second: not shown
-    display.finish(at(1, 2, 20, 2));
+    ProgressDisplay display(ProgressStyle::json, {}, at(0, 0, 0, 0), begin);
+    display.update(at(0.1, 1, 10, 1), begin + std::chrono::milliseconds(499));
+    display.update(at(0.2, 2, 20, 2), begin + std::chrono::milliseconds(500));
+    display.update(at(0.3, 3, 30, 3), begin + std::chrono::milliseconds(999));
+    display.finish(at(1, 4, 40, 4));
   }
-  const std::string shown = testing::internal::GetCapturedStdout();
-  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 1);
-  EXPECT_EQ(Json::parse(shown)["fraction"], 1.0);
+  const std::vector<Json> shown = json_lines(testing::internal::GetCapturedStdout());
+  ASSERT_EQ(shown.size(), 2u);
+  EXPECT_EQ(shown[0]["fraction"], 0.2);
+  EXPECT_EQ(shown[1]["fraction"], 1.0);
 }
 
 TEST(ProgressDisplay, TheLiveLineIsTakenAway)
 {
   testing::internal::CaptureStderr();
   {
-    ProgressDisplay display(ProgressStyle::live, {"a", ""}, at(0, 0, 0, 0));
-    std::this_thread::sleep_for(std::chrono::milliseconds(110));
-    display.update(at(0.5, 1, 10, 1));
+    ProgressDisplay display(ProgressStyle::live, {"a", ""}, at(0, 0, 0, 0), begin);
+    display.update(at(0.5, 1, 10, 1), begin + std::chrono::milliseconds(100));
   }
   const std::string shown = testing::internal::GetCapturedStderr();
   EXPECT_THAT(shown, HasSubstr("\ra  [##"));
