@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/verb.h"
 
+#include "base/numbers.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
