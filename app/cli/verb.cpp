@@ -6,8 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <concepts>
 #include <filesystem>
+#include <type_traits>
 #include <utility>
 
 namespace nephroid::cli {

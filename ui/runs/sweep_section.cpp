@@ -14,6 +14,7 @@
 #include <fmt/ranges.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <tuple>

@@ -138,15 +138,16 @@ void Caustics::compile_air(int side)
 void Caustics::cast(const CastTexels& texels)
 {
   timed([&] {
-    std::vector<compute::Argument> own{{"radii", radii_}, {"spheres", spheres_}};
+    std::vector<compute::Argument> arguments = texels.arguments();
     if (technique_ == Technique::eight_sets)
-      own.insert(own.end(), {{"stored", stored_}, {"ways", ways_}, {"way_of", way_of_}, {"sets", sets_}, {"eights", used_eights_}});
+      arguments.insert(arguments.end(),
+                       {{"stored", stored_}, {"ways", ways_}, {"way_of", way_of_}, {"sets", sets_}, {"eights", used_eights_}});
     else if (technique_ == Technique::direct)
-      own.insert(own.end(), {{"stored", stored_}, {"sets", sets_}, {"set_count", set_count_}});
+      arguments.insert(arguments.end(), {{"stored", stored_}, {"sets", sets_}, {"set_count", set_count_}});
     else
-      own.insert(own.end(),
-                 {{"compiled", compiled_}, {"object_x", air_.object_x}, {"object_y", air_.object_y}, {"object_z", air_.object_z}});
-    cast_.run(texels.count, group, texels.arguments(), own);
+      arguments.insert(arguments.end(),
+                       {{"compiled", compiled_}, {"object_x", air_.object_x}, {"object_y", air_.object_y}, {"object_z", air_.object_z}});
+    cast_.run(texels.count, group, arguments, {{"radii", radii_}, {"spheres", spheres_}});
     context_.finish();
   });
 }
