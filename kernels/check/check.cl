@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of kernels/*.h over arrays, one item each: how `nephroid check` (app/check) and tests hold them against the host.
-// Nothing is computed here that the headers do not compute, but for built_ins, which asks the device's own functions.
+// The functions of kernels/*.h over arrays, one item each: how `nephroid check` (app/check) and tests hold them against
+// the host. Nothing is computed here that the headers do not compute, but for built_ins, which asks the device's own
+// functions.
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/fresnel.h"
 #include "kernels/tracing/media.h"
@@ -68,7 +69,8 @@ kernel void interfaces(global const float4* in, global float4* out, uint count)
   out[i] = (float4)(cos_t, r, 0.0f, 0.0f);
 }
 
-// in: a direction that falls on the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one and its cosine.
+// in: a direction that falls on the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one and its
+// cosine.
 kernel void directions(global const float4* in, global float4* out, uint count)
 {
   const uint i = get_global_id(0);
@@ -79,8 +81,8 @@ kernel void directions(global const float4* in, global float4* out, uint count)
   out[2 * i + 1] = (float4)(cos_t < 0.0f ? (float3)(0.0f) : refract_through(d, n, cos_i, cos_t, in[i].w), cos_t);
 }
 
-// One walk an item through nested objects. A step k >= 0 enters object k, ~k leaves it. After each: the medium, -1 air, or -2 where
-// the list of media is full.
+// One walk an item through nested objects. A step k >= 0 enters object k, ~k leaves it. After each: the medium, -1 air,
+// or -2 where the list of media is full.
 kernel void media_walks(global const DeviceObject* objects, global const int* steps, global int* mediums, int steps_each, uint count)
 {
   const uint walk = get_global_id(0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics on what stands around the object (thesis 3.2): E r^2 of all lights in texels of the cube of receivers, by looking up the spheres
-// of every light there. And light in the air, by adding all those up into one set of spheres first (Algorithm 3.5).
+// Caustics on what stands around the object (thesis 3.2): E r^2 of all lights in texels of the cube of receivers, by
+// looking up the spheres of every light there. And light in the air, by adding all those up into one set of spheres
+// first (Algorithm 3.5).
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 
@@ -23,8 +24,8 @@ __kernel void cast(__global const ushort* stored, __global const ushort* ways, _
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Of all texels of all spheres in their stored
-// form, whose maps have side x side texels. object_x, y, z: the object's axes in the scene.
+// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Of all texels of all spheres in their
+// stored form, whose maps have side x side texels. object_x, y, z: the object's axes in the scene.
 __kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
                           __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x, float4 object_y,
                           float4 object_z, int side, uint count, __global float* air)

@@ -59,7 +59,8 @@ static inline uint cube_texel(float3 direction, int size)
   return (uint)((p.face * size + y) * size + x);
 }
 
-// The four texels about a direction with their bilinear weights. Beyond the border of a face its outermost texels go on.
+// The four texels about a direction with their bilinear weights. Beyond the border of a face its outermost texels go
+// on.
 typedef struct {
   uint texels[4];
   float weights[4];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics on receivers in the two ways that the thesis compares (3.4, table 3.3): one set of spheres after the other. `cast` looks
-// all sets up for each receiver; `compile` adds them up into one set first (Algorithm 3.5), and `cast_compiled` looks that up. All
-// light comes from the object's middle.
+// Caustics on receivers in the two ways that the thesis compares (3.4, table 3.3): one set of spheres after the other.
+// `cast` looks all sets up for each receiver; `compile` adds them up into one set first (Algorithm 3.5), and
+// `cast_compiled` looks that up. All light comes from the object's middle.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 
@@ -44,7 +44,8 @@ __kernel void cast(__global const ushort* stored, __global const DeviceEightSets
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Of all texels of all spheres in their stored form, in coordinates of the object, whose axes in the scene are object_x, y, z.
+// Of all texels of all spheres in their stored form, in coordinates of the object, whose axes in the scene are
+// object_x, y, z.
 __kernel void compile(__global const ushort* stored, __global const DeviceEightSets* sets, int set_count, __global const float* radii,
                       DeviceSpheres spheres, float4 object_x, float4 object_y, float4 object_z, uint count, __global float* compiled)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the pixels' paths end: at a diffuse surface or at the environment, straight or through glass and mirrors. What light is there is
-// shade.cl's: while only light changes, ends stay.
+// Where the pixels' paths end: at a diffuse surface or at the environment, straight or through glass and mirrors. What
+// light is there is shade.cl's: while only light changes, ends stay.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/camera.h"
@@ -13,7 +13,8 @@ static inline DeviceEnd nowhere(void)
   return end;
 }
 
-// Where a path ends. first: what it meets next, where that is known. weight: linear sRGB. likelier: of reflection and refraction on its way.
+// Where a path ends. first: what it meets next, where that is known. weight: linear sRGB. likelier: of reflection and
+// refraction on its way.
 static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band, float3 weight, uint2 seed,
                                uint sample, uint pixel, bool likelier)
 {
@@ -45,7 +46,8 @@ static inline void want(const DeviceEnd* end, float4 middle, int size, __global 
     if (states[four.texels[i]] == RECEIVER_UNSEEN) states[four.texels[i]] = RECEIVER_WANTED; // others may write the same
 }
 
-// How much of the light glass reflects where a path has met it: from the directions before and after. n_ratio: of indices, near over far.
+// How much of the light glass reflects where a path has met it: from the directions before and after. n_ratio: of
+// indices, near over far.
 static inline float reflected_share(float3 direction, float3 reflected, float n_ratio)
 {
   const float3 normal = normalize(reflected - direction);
@@ -53,8 +55,8 @@ static inline float reflected_share(float3 direction, float3 reflected, float n_
   return cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_ratio, 1.0f);
 }
 
-// The band of a path that is for one channel of the picture: a wavelength that is drawn by how much of white light of that channel it is.
-// channel_cdf: [channel][401].
+// The band of a path that is for one channel of the picture: a wavelength that is drawn by how much of white light of
+// that channel it is. channel_cdf: [channel][401].
 static inline Band band_of_channel(__global const float* channel_cdf, int channel, float u)
 {
 #if NEPHROID_JITTER
@@ -65,8 +67,8 @@ static inline Band band_of_channel(__global const float* channel_cdf, int channe
 #endif
 }
 
-// Takes a path from the eye on from the glass or mirror that it meets first, where it is reflected or goes through. weight: linear sRGB of the
-// channel. False where there is no such way.
+// Takes a path from the eye on from the glass or mirror that it meets first, where it is reflected or goes through.
+// weight: linear sRGB of the channel. False where there is no such way.
 static inline bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, int channel, bool reflected, float3* weight)
 {
   const Surface surface = surface_at(&world->geometry, *hit);
@@ -89,9 +91,10 @@ static inline bool first_bend(const World* world, Path* path, const Hit* hit, co
   return goes_on;
 }
 
-// Paths for each square of block x block pixels, first .. first + count - 1 counted row after row; ends: ENDS_OF_PIXEL for each. A pixel
-// that first sees glass follows both what it reflects and what it lets through; that in three colours where glass parts them. In
-// a coarse picture, of larger squares, paths take the likelier way at the surfaces after that: one that did not would stand out as a square.
+// Paths for each square of block x block pixels, first .. first + count - 1 counted row after row; ends: ENDS_OF_PIXEL
+// for each. A pixel that first sees glass follows both what it reflects and what it lets through; that in three colours
+// where glass parts them. In a coarse picture, of larger squares, paths take the likelier way at the surfaces after
+// that: one that did not would stand out as a square.
 __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states, int size, float4 middle,
                   DeviceCamera camera, uint2 seed, uint pass, int block, uint first, uint count)
 {

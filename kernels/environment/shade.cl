@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light the pixels' paths bring from their ends (see.cl): the environment itself; on a surface its direct light and that of lamps, and
-// caustics from the cube of receivers.
+// What light the pixels' paths bring from their ends (see.cl): the environment itself; on a surface its direct light
+// and that of lamps, and caustics from the cube of receivers.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/background.h"
@@ -17,8 +17,8 @@
 #define LAYER_CAUSTIC 2
 #define LAYER_SMOOTH 3 // direct light without noise: the environment lights surfaces by its smooth part, with shadows of a few lights
 
-// A part of the expected distance, and of a texel's width, by which a receiver's distance may differ from what it should be were the
-// surface flat there.
+// A part of the expected distance, and of a texel's width, by which a receiver's distance may differ from what it
+// should be were the surface flat there.
 #define DISTANCE_TOLERANCE 0.02f
 
 typedef struct {
@@ -29,8 +29,8 @@ typedef struct {
   __global const float* parts_seen; // of the environment's light: [texel][3]
 } Receivers;
 
-// Irradiance on a surface by the caustics: linear sRGB, 0 where something else hides it from the object. *seen: of the environment's light, 1
-// there. Of the four texels about it those count that see the same surface.
+// Irradiance on a surface by the caustics: linear sRGB, 0 where something else hides it from the object. *seen: of the
+// environment's light, 1 there. Of the four texels about it those count that see the same surface.
 static inline float3 caustic_irradiance(const Receivers* receivers, const DeviceEnd* end, float3* seen)
 {
   *seen = (float3)(1.0f);
@@ -55,8 +55,8 @@ static inline float3 caustic_irradiance(const Receivers* receivers, const Device
   return sum / (weights * distance * distance);
 }
 
-// Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of app/environment/segment/irradiance.h.
-// polynomial: factors of 1, x, y, z, xx, yy, zz, xy, yz, zx.
+// Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of
+// app/environment/segment/irradiance.h. polynomial: factors of 1, x, y, z, xx, yy, zz, xy, yz, zx.
 static inline float3 smooth_irradiance(__global const float4* polynomial, float3 n)
 {
   __global const float4* p = polynomial;
@@ -72,9 +72,9 @@ static inline float3 reflected_colour(__global const float4* reflected_rgb, int 
   return rgb.x * of[0].xyz + rgb.y * of[1].xyz + rgb.z * of[2].xyz;
 }
 
-// Radiance of a surface by what reaches it unbent, linear sRGB; *smooth: of the layer smooth. seen: which part of the environment's light is for
-// that. lit_rgb: [row of the lights' tables][reflector]. sequence: of the numbers that places in the environment are drawn by, of which a pass
-// takes one.
+// Radiance of a surface by what reaches it unbent, linear sRGB; *smooth: of the layer smooth. seen: which part of the
+// environment's light is for that. lit_rgb: [row of the lights' tables][reflector]. sequence: of the numbers that
+// places in the environment are drawn by, of which a pass takes one.
 static inline float3 direct_radiance(const World* world, const DeviceEnd* end, __global const float4* lit_rgb,
                                      __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit, uint2 seed,
                                      uint pass, uint sequence, float3 seen, float3* smooth)

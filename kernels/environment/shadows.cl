@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which part of the environment's light reaches what stands around the caustic object, in texels of the cube of receivers: each of the few
-// lights that it is cut into is seen or hidden. The tree is that of the whole scene: light that the object bends is its caustic's.
+// Which part of the environment's light reaches what stands around the caustic object, in texels of the cube of
+// receivers: each of the few lights that it is cut into is seen or hidden. The tree is that of the whole scene: light
+// that the object bends is its caustic's.
 #include "kernels/environment/cube.h"
 #include "kernels/tracing/world.h"
 
 // How far off a receiver its shadow rays begin, as a part of its distance: beyond the rounding of both.
 #define OFF_RECEIVER 1e-4f
 
-// list: texels. facing: as receivers.cl has them. sky_lights: of each the unit direction to it, then its flux, linear sRGB. parts_seen: [texel][3].
+// list: texels. facing: as receivers.cl has them. sky_lights: of each the unit direction to it, then its flux, linear
+// sRGB. parts_seen: [texel][3].
 __kernel void shadows(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle,
                       __global const float* distances, __global const float4* facing, __global const float4* sky_lights, int light_count,
                       __global float* parts_seen)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg (2008, "Fast
-// equal-area mapping of the (hemi)sphere using SIMD"). app/environment/bake/bake.h has the same in double.
+// The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg
+// (2008, "Fast equal-area mapping of the (hemi)sphere using SIMD"). app/environment/bake/bake.h has the same in double.
 #ifndef NEPHROID_SPHERE_MAP_H
 #define NEPHROID_SPHERE_MAP_H
 

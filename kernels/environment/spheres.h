@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks up caustic spheres: E r^2 in a direction from the object's middle at a distance, between spheres and between texels. E r^2 goes
-// on unchanged beyond the largest sphere, where light has left the object's neighbourhood and thins out by the inverse square.
+// Looks up caustic spheres: E r^2 in a direction from the object's middle at a distance, between spheres and between
+// texels. E r^2 goes on unchanged beyond the largest sphere, where light has left the object's neighbourhood and thins
+// out by the inverse square.
 #ifndef NEPHROID_SPHERES_H
 #define NEPHROID_SPHERES_H
 
@@ -26,17 +27,18 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
   return shell;
 }
 
-// Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2 goes to 0.
+// Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2
+// goes to 0.
 static inline float held(__global const float* radii, float distance)
 {
   const float part = fmin(distance / radii[0], 1.0f);
   return part * part;
 }
 
-// Where a unit vector is in a sphere's map, in texels from the middle of the border's outermost texel: rounded down these are the column and
-// the row of the first of the four texels about it, what is left is how far it is to the others. atan(t) / (pi / 2) is a polynomial within
-// 1e-5 (Abramowitz and Stegun 4.4.49), a hundredth of a texel; atan2 itself would take a third of all time. REAL: float, or float8 for eight
-// vectors at once.
+// Where a unit vector is in a sphere's map, in texels from the middle of the border's outermost texel: rounded down
+// these are the column and the row of the first of the four texels about it, what is left is how far it is to the
+// others. atan(t) / (pi / 2) is a polynomial within 1e-5 (Abramowitz and Stegun 4.4.49), a hundredth of a texel; atan2
+// itself would take a third of all time. REAL: float, or float8 for eight vectors at once.
 #define DEFINE_STORED_PLACE(NAME, REAL)                                                                                                  \
   static inline void NAME(REAL x, REAL y, REAL z, float side, REAL* column, REAL* row)                                                  \
   {                                                                                                                                      \
@@ -51,8 +53,8 @@ static inline float held(__global const float* radii, float distance)
   }
 DEFINE_STORED_PLACE(stored_place, float)
 
-// The texel of a map of side x side that a texel of its stored form shows, whose border has what is over the edge: there the square goes on
-// at the same edge, from its other end.
+// The texel of a map of side x side that a texel of its stored form shows, whose border has what is over the edge:
+// there the square goes on at the same edge, from its other end.
 static inline int texel_of_stored(int stored, int side)
 {
   const int stride = side + 2, last = side - 1, column = stored % stride - 1, row = stored / stride - 1;
@@ -61,8 +63,8 @@ static inline int texel_of_stored(int stored, int side)
   return (across ? last - y : y) * side + (down ? last - x : x);
 }
 
-// What the kernels look up. Maps are in their stored form, direction after direction. Numbers are stored as the upper halves
-// of floats: nine bits are more than the photons' noise leaves, and no device takes long over them.
+// What the kernels look up. Maps are in their stored form, direction after direction. Numbers are stored as the upper
+// halves of floats: nine bits are more than the photons' noise leaves, and no device takes long over them.
 typedef struct {
   __global const ushort* stored; // [map][texel][channel]
   __global const ushort* ways;   // [map][texel], numbers of way_of
@@ -150,9 +152,9 @@ static inline SetLight light_of_set(const Maps* maps, const DeviceSpheres* spher
 }
 
 #ifdef NEPHROID_GPU
-// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on the object's side. beyond:
-// 0 up to the largest sphere, towards 1 far from it (spheres_eight.h). One set after the other: eight side by side need more registers than
-// there are.
+// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on
+// the object's side. beyond: 0 up to the largest sphere, towards 1 far from it (spheres_eight.h). One set after the
+// other: eight side by side need more registers than there are.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* sets, int eights,
                                      float3 direction, Shell shell, float beyond, float3 normal)
 {
@@ -171,7 +173,8 @@ static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* sphe
 #include "kernels/environment/spheres_eight.h"
 #endif
 
-// Light in the air at a place: of each set E r^2 across the way that its light goes there, instead of through the sphere.
+// Light in the air at a place: of each set E r^2 across the way that its light goes there, instead of through the
+// sphere.
 typedef struct {
   float3 rgb; // linear sRGB
   float3 way; // the mean way in the scene, weighted by luminance: shorter than that where light goes several ways

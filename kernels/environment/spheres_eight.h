@@ -53,9 +53,10 @@ static inline float8 row_of_eight(__global const DeviceEightSets* eight, int row
          vload8(3 * row + 2, eight->to_bake[0]) * direction.z;
 }
 
-// Eight times E on a surface over E on the sphere, which faces the middle. x, y, z and normal_x, y, z: the way from the middle and the surface's
-// normal as each set has them. texels: of the maps. The light goes the way that it has in the nearest texel. beyond: 0 up to the largest sphere,
-// towards 1 far from it, where all light seems to come from the middle; the factor goes from the way's to the middle's with it.
+// Eight times E on a surface over E on the sphere, which faces the middle. x, y, z and normal_x, y, z: the way from the
+// middle and the surface's normal as each set has them. texels: of the maps. The light goes the way that it has in the
+// nearest texel. beyond: 0 up to the largest sphere, towards 1 far from it, where all light seems to come from the
+// middle; the factor goes from the way's to the middle's with it.
 static inline float8 eight_factors(const Maps* maps, __global const DeviceEightSets* eight, size_t map, int8 texels, float8 x, float8 y, float8 z,
                                    float8 normal_x, float8 normal_y, float8 normal_z, float beyond)
 {
@@ -75,8 +76,8 @@ static inline float8 eight_factors(const Maps* maps, __global const DeviceEightS
   return along + beyond * (radial - along);
 }
 
-// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on the object's side. beyond:
-// of eight_factors.
+// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on
+// the object's side. beyond: of eight_factors.
 static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* sets, int eights,
                                      float3 direction, Shell shell, float beyond, float3 normal)
 {

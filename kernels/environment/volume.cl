@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics in the air: light that the object sends out and that a thin medium scatters once, towards the eye (thesis 3.2.1). Each path from the eye
-// is walked in steps up to the first surface that it meets, within the largest caustic sphere. What the medium takes of a step's light on the
-// way to the eye is lost; surfaces and the environment keep theirs.
+// Caustics in the air: light that the object sends out and that a thin medium scatters once, towards the eye (thesis
+// 3.2.1). Each path from the eye is walked in steps up to the first surface that it meets, within the largest caustic
+// sphere. What the medium takes of a step's light on the way to the eye is lost; surfaces and the environment keep
+// theirs.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 #include "kernels/tracing/camera.h"
@@ -9,9 +10,9 @@
 
 #define VOLUME_STEPS 128
 
-// Part of the light that is scattered into a steradian, by the cosine between the mean way before and the way after. together: the length of
-// the mean of unit ways, 1 where all are the same. Ways that lie about their mean as Henyey and Greenstein's do make the first moment of the
-// phase function smaller by that, and the second by its square.
+// Part of the light that is scattered into a steradian, by the cosine between the mean way before and the way after.
+// together: the length of the mean of unit ways, 1 where all are the same. Ways that lie about their mean as Henyey and
+// Greenstein's do make the first moment of the phase function smaller by that, and the second by its square.
 static inline float phase_function(float cosine, float together, int rayleigh, float g)
 {
   if (rayleigh) return 1.0f / (4.0f * PI_F) * (1.0f + together * together * (0.75f * cosine * cosine - 0.25f));
@@ -19,7 +20,8 @@ static inline float phase_function(float cosine, float together, int rayleigh, f
   return (1.0f - mean * mean) / (4.0f * PI_F * base * sqrt(base));
 }
 
-// Of each square of block x block pixels. distances: of the whole cube of receivers. extinction: 1 / unit. sums: [pixel][3].
+// Of each square of block x block pixels. distances: of the whole cube of receivers. extinction: 1 / unit. sums:
+// [pixel][3].
 __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii, DeviceSpheres spheres, float4 object_x,
                      float4 object_y, float4 object_z, __global const float* distances, int size, float4 middle, DeviceCamera camera,
                      float extinction, float albedo, int rayleigh, float anisotropy, __global float* sums, uint2 seed, uint pass, int block, int anew,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h, which has the reasons, in single precision.
+// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h, which has the reasons, in single
+// precision.
 #ifndef NEPHROID_FOOTPRINT_H
 #define NEPHROID_FOOTPRINT_H
 
@@ -105,7 +106,8 @@ static inline float mean_above_0(float a, float b)
   return fabs(a) >= 0.5f * b ? fmax(a, 0.0f) : (a + 0.5f * b) * (a + 0.5f * b) / (2.0f * b);
 }
 
-// In parts of the facet's width: what the neighbour at a side of x hides of light with this slope, x and y being any two axes.
+// In parts of the facet's width: what the neighbour at a side of x hides of light with this slope, x and y being any
+// two axes.
 static inline float hidden_by(global const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g, float g_other, int axis, float ratio,
                               float meets)
 {
@@ -261,7 +263,8 @@ static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* 
                 edge_cell(ceil(print->y.middle + high.y + print->y.reach), layout->cells_y));
 }
 
-// How much of a footprint's light is on each cell of a tile. One beam says it by itself; many are added up, a tile after the other.
+// How much of a footprint's light is on each cell of a tile. One beam says it by itself; many are added up, a tile
+// after the other.
 #if NEPHROID_SPREAD
 #define TILE 8
 #define TILE_ROWS TILE
@@ -297,7 +300,8 @@ static inline int fill_tile(global const DeviceLayout* layout, const Footprint* 
 #define PART_ON(print, tile, x, y) (part_on((print).x, x) * (tile)[0])
 #endif
 
-// For every cell (x, y) that a footprint touches, of a tile that begins at `at`: PART_ON(print, tile, x, y) of its light.
+// For every cell (x, y) that a footprint touches, of a tile that begins at `at`: PART_ON(print, tile, x, y) of its
+// light.
 #define FOR_CELLS(layout, print, tile)                                                                                                     \
   for (int4 box = cells_of(layout, &(print)), at = box; at.y < box.w; at.y += TILE_ROWS)                                                       \
     for (at.x = box.x; at.x < box.z; at.x += TILE)                                                                                         \

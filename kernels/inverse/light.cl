@@ -68,8 +68,9 @@ static inline float2 along_lack(global const DeviceLayout* layout, const Footpri
   return sum;
 }
 
-// Of the weighted squares, by each facet's slope. That its footprint's size and its light change with it too is less than a hundredth of
-// that where a facet is small beside the distances, and left out. Of facets first .. first + count - 1.
+// Of the weighted squares, by each facet's slope. That its footprint's size and its light change with it too is less
+// than a hundredth of that where a facet is small beside the distances, and left out. Of facets first .. first + count
+// - 1.
 __kernel void find_gradient(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const DeviceIncoming* incoming,
                             __global const float* heights, __global const float2* slopes, __global const float* lack,
                             uint first, uint count, __global float2* gradient)

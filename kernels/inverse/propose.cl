@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facets of a batch look for slopes that are worth to be scored exactly: by what lacks about the middle of the light that they would send.
+// Facets of a batch look for slopes that are worth to be scored exactly: by what lacks about the middle of the light
+// that they would send.
 #include "kernels/inverse/search.h"
 #include "kernels/tracing/registers.h"
 
@@ -18,8 +19,8 @@ static inline Beam flat_beam(global const DeviceLayout* layout, float distance, 
   return beam_of(0.5f, wide / cell, blur / cell);
 }
 
-// The mean of the lack under such beams about every cell's middle: what candidates are looked up in, at the nearest cell. First along y, then
-// along x; a row of cells an item.
+// The mean of the lack under such beams about every cell's middle: what candidates are looked up in, at the nearest
+// cell. First along y, then along x; a row of cells an item.
 __kernel void smear_y(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const float* lack, __global float* along_y)
 {
   const int row = (int)get_global_id(0), cells_x = layout->cells_x, cells_y = layout->cells_y;
@@ -55,12 +56,14 @@ __kernel void smear_x(__global const DeviceLayout* layout, __global const Device
 #define GATHER(from, i)                                                                                                                   \
   (float8)((from)[i.s0], (from)[i.s1], (from)[i.s2], (from)[i.s3], (from)[i.s4], (from)[i.s5], (from)[i.s6], (from)[i.s7])
 
-// Eight slopes at a time, of which each is the best of those that were tried in its place; infinite: none was reachable.
+// Eight slopes at a time, of which each is the best of those that were tried in its place; infinite: none was
+// reachable.
 typedef struct {
   float8 lowest, x, y;
 } Eight;
 
-// Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where a facet's light falls.
+// Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where a facet's light
+// falls.
 static SEPARATE void try_lattice(const Search* s, global const float* smeared, float8 x_from, float8 y_from, float2 step, int2 count, Eight* best)
 {
   global const DeviceLayout* layout = s->layout;
@@ -108,8 +111,8 @@ static SEPARATE void try_lattice(const Search* s, global const float* smeared, f
   best->y = best_y;
 }
 
-// Facet order[first + i] gets eight slopes to try: of the rows part, part + PARTS, ... of its lattice the best of every eighth column, then of
-// the cells about each; of the parts' the better one. x is infinite where none was reachable.
+// Facet order[first + i] gets eight slopes to try: of the rows part, part + PARTS, ... of its lattice the best of every
+// eighth column, then of the cells about each; of the parts' the better one. x is infinite where none was reachable.
 __kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global const uint* order, uint first, uint count, uint2 seed,
                       uint sweep, __global float2* candidates)
 {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facets of a batch look for better slopes among the light of the others, all at once. Then they take them, those first that share no cell
-// with a facet before them: so that each gains as much as it would alone.
+// Facets of a batch look for better slopes among the light of the others, all at once. Then they take them, those first
+// that share no cell with a facet before them: so that each gains as much as it would alone.
 #include "kernels/inverse/search.h"
 
 // Refining takes so many steps of one length at most, and halves them until they are this part of a cell.
 #define STEPS 2
 #define FINEST 0.25f
 
-// What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this slope.
+// What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this
+// slope.
 static SEPARATE float score(const Search* s, float2 slope)
 {
   global const DeviceLayout* layout = s->layout;
@@ -112,8 +113,8 @@ static SEPARATE bool holds_cells(global const DeviceLayout* layout, const Footpr
   return true;
 }
 
-// Claims are the cells of all receivers, then the facets where neighbours are to be alike. A key is lower the later the turn and the
-// earlier the facet in its batch, so that claims of turns before count no more.
+// Claims are the cells of all receivers, then the facets where neighbours are to be alike. A key is lower the later the
+// turn and the earlier the facet in its batch, so that claims of turns before count no more.
 #define KEY(turn, i) ((0xFFFFFu - (turn)) << 12 | (i))
 
 __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, uint count, __global const float2* found, __global const int* done,
@@ -161,7 +162,8 @@ static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprin
     }
 }
 
-// Facets that hold all that they claimed have their cells to themselves. They take what they found if it is better still.
+// Facets that hold all that they claimed have their cells to themselves. They take what they found if it is better
+// still.
 __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const uint* order, uint first, uint count,
                    __global const float2* found, __global int* done, __global const uint* claims, uint turn)
 {

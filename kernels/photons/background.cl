@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end at the environment.
-// A path through glass has one wavelength, unless all go the same way: then it has all of them.
+// The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end
+// at the environment. A path through glass has one wavelength, unless all go the same way: then it has all of them.
 #include "kernels/tracing/background.h"
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, lit there by what of each light
-// arrives unbent. Glass and mirrors block those shadow rays: what they let through is the caustic layer's.
+// The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, lit there by what of
+// each light arrives unbent. Glass and mirrors block those shadow rays: what they let through is the caustic layer's.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 
@@ -30,7 +30,8 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
   return xyz;
 }
 
-// Takes a path that has hit `first` on through glass and mirrors in one band. Returns XYZ radiance of that band's light alone.
+// Takes a path that has hit `first` on through glass and mirrors in one band. Returns XYZ radiance of that band's light
+// alone.
 IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band, __global const float4* reflected_xyz_all, uint2 seed,
                        uint sample, uint pixel)
 {
@@ -59,7 +60,8 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
   const Hit hit = next_hit(&world, &path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
-  // One call of follow() for both cases: half the code, and Intel's vectoriser gets two of them wrong (docs/checking.md).
+  // One call of follow() for both cases: half the code, and Intel's vectoriser gets two of them wrong
+  // (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
   const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts photons into the buckets of photon_map.h by counting: count_photons, sum_blocks, scan_blocks, scatter_photons, in this order.
+// Sorts photons into the buckets of photon_map.h by counting: count_photons, sum_blocks, scan_blocks, scatter_photons,
+// in this order.
 #include "kernels/photons/photon_map.h"
 
 // The buckets are added up in this many blocks, one a work item.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the lights everywhere,
-// are bent by glass and mirrors and sent on by diffuse surfaces; from the second diffuse surface on, each adds to the pixel that sees it.
-// What a photon carries changes by absorption alone: Fresnel's reflectance, and the reflectance of a diffuse surface, decide by chance.
+// The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the
+// lights everywhere, are bent by glass and mirrors and sent on by diffuse surfaces; from the second diffuse surface on,
+// each adds to the pixel that sees it. What a photon carries changes by absorption alone: Fresnel's reflectance, and
+// the reflectance of a diffuse surface, decide by chance.
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 
-// A photon of any direction that the light shines in. everything: one target, about the scene and the lights. An area light sends the same
-// power along every cosine-distributed direction; what emit() does, where directions are uniform, would be noisier.
+// A photon of any direction that the light shines in. everything: one target, about the scene and the lights. An area
+// light sends the same power along every cosine-distributed direction; what emit() does, where directions are uniform,
+// would be noisier.
 static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything, const DeviceScene* scene, float4 random,
                                        float2 place)
 {
@@ -91,7 +93,8 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
   }
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. emitters: one for each light that has photons.
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. emitters: one for each light that
+// has photons.
 __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global const DeviceEmitter* emitters, int emitter_count,
                        __global const float* spectrum_cdf, // [light][member of all clusters]: which wavelength a photon has
                        volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]

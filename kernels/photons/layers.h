@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of scalars, from which the picture of any light is a weighted sum. A layer is the light of one lamp in one wavelength cluster (or
-// in all wavelengths, where nothing is bent), as if the layer had 1 W (directional light: 1 W m^-2) and every surface were white. So that
-// a surface's reflectance can be multiplied later, a pixel has a cell for each reflector that it sees: most have one, those at an edge two.
-// Sums are 64-bit fixed point: [block of LAYER_BLOCK cells][half][layer][cell of the block], so that weighing reads one stretch of memory.
+// A film of scalars, from which the picture of any light is a weighted sum. A layer is the light of one lamp in one
+// wavelength cluster (or in all wavelengths, where nothing is bent), as if the layer had 1 W (directional light: 1 W
+// m^-2) and every surface were white. So that a surface's reflectance can be multiplied later, a pixel has a cell for
+// each reflector that it sees: most have one, those at an edge two. Sums are 64-bit fixed point: [block of LAYER_BLOCK
+// cells][half][layer][cell of the block], so that weighing reads one stretch of memory.
 #ifndef NEPHROID_LAYERS_H
 #define NEPHROID_LAYERS_H
 
@@ -27,9 +28,10 @@ typedef struct {
 
 static inline bool has_cells(const LayerFilm* film, int pixel) { return film->first[pixel] < film->first[pixel + 1]; }
 
-// Adds value * scale to a layer where the pixel sees the reflector. The pixel's survey may have missed that: then the light goes to the
-// reflector that it sees most, in the ratio of their mean reflectances in the layer's wavelengths (mean_reflectance: [reflector]), which is
-// right but for how they differ within those. The pixel has cells. dither and what is returned: as film_add_dithered.
+// Adds value * scale to a layer where the pixel sees the reflector. The pixel's survey may have missed that: then the
+// light goes to the reflector that it sees most, in the ratio of their mean reflectances in the layer's wavelengths
+// (mean_reflectance: [reflector]), which is right but for how they differ within those. The pixel has cells. dither and
+// what is returned: as film_add_dithered.
 static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, int layer, float value, float scale, float limit,
                              __global const float* mean_reflectance, float dither)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caustic layer: photons of each wavelength cluster leave the lights towards the caustic objects, are bent by glass and mirrors, and
-// are splatted into the pixel that sees the diffuse surface they reach.
+// The caustic layer: photons of each wavelength cluster leave the lights towards the caustic objects, are bent by glass
+// and mirrors, and are splatted into the pixel that sees the diffuse surface they reach.
 #include "kernels/photons/guide.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
@@ -20,8 +20,8 @@
 #define NEPHROID_STORE 0
 #endif
 
-// The square of a contribution to the film in linear sRGB, in quanta of 2^12 of the film's squared, at most 2^40. The sum over an emitter's
-// photons says how many of all photons it should have (app/spectral/effort/emitters.h).
+// The square of a contribution to the film in linear sRGB, in quanta of 2^12 of the film's squared, at most 2^40. The
+// sum over an emitter's photons says how many of all photons it should have (app/spectral/effort/emitters.h).
 static inline long squared(float3 xyz, float scale)
 {
   const float3 q = xyz * (scale * 0x1p-6f);
@@ -31,8 +31,9 @@ static inline long squared(float3 xyz, float scale)
   return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
 }
 
-// A photon on a diffuse surface is put into its slot of a photon map. band: pass_band.h. xyz: reflected power. scale: quanta of a unit of it.
-// dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot is empty, where a photon carries too much.
+// A photon on a diffuse surface is put into its slot of a photon map. band: pass_band.h. xyz: reflected power. scale:
+// quanta of a unit of it. dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot is
+// empty, where a photon carries too much.
 static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band, int object_count, float3 xyz,
                                 float scale, float dither)
 {
@@ -51,8 +52,8 @@ static inline bool store_photon(__global StoredPhoton* slot, const Surface* surf
   return fits;
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a batch, whose number is `iteration`; a pass of maps, map_pass, has
-// one round or several. energy counts what photons carry, whatever a smooth
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a batch, whose number is `iteration`; a pass of
+// maps, map_pass, has one round or several. energy counts what photons carry, whatever a smooth
 // receiver makes of it by its shading normals.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The direct layer for relighting: direct.cl, whose samples go into layers (layers.h). Where nothing is bent, all wavelengths of a lamp went
-// the same way and share one layer; through glass and mirrors each cluster of each lamp has its own. Before the first pass a survey finds
-// the reflectors that each pixel sees.
+// The direct layer for relighting: direct.cl, whose samples go into layers (layers.h). Where nothing is bent, all
+// wavelengths of a lamp went the same way and share one layer; through glass and mirrors each cluster of each lamp has
+// its own. Before the first pass a survey finds the reflectors that each pixel sees.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/photons/layers.h"
@@ -37,7 +37,8 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
   }
 }
 
-// One sample of every pixel of rows first_row .. first_row + row_count - 1. mean_reflectance: [cluster, then all of them][reflector].
+// One sample of every pixel of rows first_row .. first_row + row_count - 1. mean_reflectance: [cluster, then all of
+// them][reflector].
 __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global const float* mean_reflectance,
                      __global const float* luminance_share, // [cluster]: of a flat spectrum's
                      LAYER_FILM_ARGUMENTS(unbent), LAYER_FILM_ARGUMENTS(bent), volatile __global long* energy, DeviceCamera camera,

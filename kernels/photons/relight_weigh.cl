@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two weighted sums of a film of layers (layers.h): the picture under a light and the draw of its error. Costs one reading of the film.
-// First each cell by itself, then each pixel's cells together.
+// Two weighted sums of a film of layers (layers.h): the picture under a light and the draw of its error. Costs one
+// reading of the film. First each cell by itself, then each pixel's cells together.
 #include "kernels/photons/layer_types.h"
 
 // One work item: eight cells of one reflector. rows: halves times layers.

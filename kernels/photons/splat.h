@@ -11,7 +11,8 @@
 #define NEPHROID_OCCLUSION 1
 #endif
 
-// Where the camera sees `position`, in pixels from the top left corner; *depth: along the view, positive before the camera.
+// Where the camera sees `position`, in pixels from the top left corner; *depth: along the view, positive before the
+// camera.
 static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth)
 {
   const float3 to_camera = camera->position.xyz - position;
@@ -22,10 +23,10 @@ static inline float2 place_on_film(const DeviceCamera* camera, float3 position, 
   return (float2)(x * (float)camera->width, y * (float)camera->height);
 }
 
-// The pixel that sees `position`, or -1; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited there adds
-// F reflectance / pi * weight to the pixel's radiance.
-// A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A), with
-// dq / dA = cos(theta) distance / z^3 (theta at the surface, z along the view axis).
+// The pixel that sees `position`, or -1; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited
+// there adds F reflectance / pi * weight to the pixel's radiance.
+// A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A),
+// with dq / dA = cos(theta) distance / z^3 (theta at the surface, z along the view axis).
 static inline int project_to_pixel(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving, float metres_per_unit,
                                    float* weight)
 {

@@ -4,9 +4,10 @@
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
 
-// What a path's losses leave of the light that it brings to the eye, as factors of X, Y and Z. A wavelength has its own. Photons of a whole
-// cluster carry a sum over its wavelengths that losses cannot be applied to one by one any more: they get the mean over the cluster,
-// weighted by the lights as the surface reflects them, which is exact where no photon has had losses of its own.
+// What a path's losses leave of the light that it brings to the eye, as factors of X, Y and Z. A wavelength has its
+// own. Photons of a whole cluster carry a sum over its wavelengths that losses cannot be applied to one by one any
+// more: they get the mean over the cluster, weighted by the lights as the surface reflects them, which is exact where
+// no photon has had losses of its own.
 static inline float3 transmittance(const World* world, const Losses* losses, const Band* band, int reflector)
 {
   float3 part = (float3)(1.0f);
@@ -52,9 +53,10 @@ static inline VisiblePoint see(const World* world, Path path, Hit hit, const Ban
   return point;
 }
 
-// points: [count], of pixels[first] and those after it; position.w: the film's dither. cluster: of all paths; or -1: each path that
-// meets glass or a mirror first takes one by its chance in cluster_cdf and is worth so much more, and the others see nothing here.
-// sample: how many paths a pixel has had before, place: how many in passes of this half of the film. Each is worth 1 / path_count of a pass.
+// points: [count], of pixels[first] and those after it; position.w: the film's dither. cluster: of all paths; or -1:
+// each path that meets glass or a mirror first takes one by its chance in cluster_cdf and is worth so much more, and
+// the others see nothing here. sample: how many paths a pixel has had before, place: how many in passes of this half of
+// the film. Each is worth 1 / path_count of a pass.
 __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points, DeviceCamera camera, uint2 seed,
                    uint pass, uint sample, uint place, uint path_count, int cluster, int object_count, __global const uint* pixels, uint first, uint count)
 {

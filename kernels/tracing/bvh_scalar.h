@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The traversal of bvh.h for devices whose work items have no vectors: one box and one triangle at a time, with few registers. A level of the
-// tree that waits is a node and which of its children are still to be looked at, 5 bytes; of those the nearest is found anew each time,
-// against the distance of the closest hit so far. Bit for bit the same hits.
+// The traversal of bvh.h for devices whose work items have no vectors: one box and one triangle at a time, with few
+// registers. A level of the tree that waits is a node and which of its children are still to be looked at, 5 bytes; of
+// those the nearest is found anew each time, against the distance of the closest hit so far. Bit for bit the same hits.
 #ifndef NEPHROID_BVH_SCALAR_H
 #define NEPHROID_BVH_SCALAR_H
 
@@ -10,8 +10,8 @@
 #define NEPHROID_BVH_DEPTH 96
 #endif
 
-// Of the children `left` of a node, as a mask, the nearest whose box the ray meets within [t_min, t]; -1: none. That child, and those that are
-// missed, are taken from `left`.
+// Of the children `left` of a node, as a mask, the nearest whose box the ray meets within [t_min, t]; -1: none. That
+// child, and those that are missed, are taken from `left`.
 static inline int bvh_nearest(global const float* node, const BvhRay* r, float t_min, float t, int* left)
 {
   int nearest = -1;

@@ -14,8 +14,9 @@ static inline float3 primary_direction(const DeviceCamera* camera, int column, i
   return normalize(camera->forward.xyz + (x * camera->tan_x) * camera->right.xyz + (y * camera->tan_y) * camera->up.xyz);
 }
 
-// A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that those of a pixel spread evenly. Even and odd
-// frames each have a start of their own and count by themselves: they are independent, as the film's two halves have to be.
+// A number in [0, 1) for path `path` of `paths` in a frame: steps of the golden ratio, so that those of a pixel spread
+// evenly. Even and odd frames each have a start of their own and count by themselves: they are independent, as the
+// film's two halves have to be.
 static inline float golden_place(uint2 seed, uint frame, uint path, uint paths, uint pixel, uint stream)
 {
   const uint half_of_frames = frame & 1u, step = (frame >> 1) * paths + path;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target in
-// proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly inside it. Where
-// targets overlap, `count` of them could have made the same photon, so its density is count / (sum of all): no light is counted
-// twice and none is left out.
+// Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target
+// in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
+// inside it. Where targets overlap, `count` of them could have made the same photon, so its density is count / (sum of
+// all): no light is counted twice and none is left out.
 #ifndef NEPHROID_EMISSION_H
 #define NEPHROID_EMISSION_H
 
@@ -23,7 +23,8 @@ static inline void make_frame(float3 n, float3* x, float3* y)
   *y = (float3)(b, sign + n.y * n.y * a, -n.y);
 }
 
-// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below the half sphere (Malley).
+// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below the half sphere
+// (Malley).
 static inline float3 cosine_direction(float3 n, float u, float v)
 {
   float3 x, y;
@@ -68,8 +69,9 @@ static inline bool meets_sphere(float4 sphere, float3 from, const Emission* phot
   return along + photon->behind > 0.0f && dot(aside, aside) <= radius2;
 }
 
-// Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which at a far and small target is a
-// visible part of its size. There the photon begins in the plane through the target's centre and reaches back to the light.
+// Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which at a far and small
+// target is a visible part of its size. There the photon begins in the plane through the target's centre and reaches
+// back to the light.
 static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 random, Emission* photon)
 {
   const float3 way = centre - from;
@@ -127,7 +129,8 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
   return emission;
 }
 
-// Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per steradian.
+// Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per
+// steradian.
 static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random, float2 place)
 {
   Emission emission;
@@ -169,7 +172,8 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
   return emission;
 }
 
-// targets: the whole table, of which a light has its own list. Of the environment: as source_of (world.h) has turned it for one photon.
+// targets: the whole table, of which a light has its own list. Of the environment: as source_of (world.h) has turned it
+// for one photon.
 static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random,
                             float2 place)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path at the surface of a dielectric object: which media meet there, and whether the path is reflected or goes through.
+// A path at the surface of a dielectric object: which media meet there, and whether the path is reflected or goes
+// through.
 #ifndef NEPHROID_INTERFACE_H
 #define NEPHROID_INTERFACE_H
 

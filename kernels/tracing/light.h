@@ -7,8 +7,8 @@
 
 #define PI_F 3.14159265358979f
 
-// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and no question is asked where there is
-// one type only.
+// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and no question is
+// asked where there is one type only.
 #ifndef NEPHROID_LIGHT_TYPES
 #define NEPHROID_LIGHT_TYPES 31
 #endif

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as a light: parallel light from every texel of a latitude-longitude picture (background.h says where a texel is seen). A
-// row is drawn by its flux, radiance times solid angle, then a texel of the row, then a place in the texel by solid angle: so every photon
-// carries nearly as much, and a sun of a few texels gets the photons that are its share.
+// The environment as a light: parallel light from every texel of a latitude-longitude picture (background.h says where
+// a texel is seen). A row is drawn by its flux, radiance times solid angle, then a texel of the row, then a place in
+// the texel by solid angle: so every photon carries nearly as much, and a sun of a few texels gets the photons that are
+// its share.
 //
-// A texel has one colour, and a colour stands for r, g and b times the fixed spectra of the three sRGB primaries, as where the environment
-// is seen. These are three rows of the tables of lights, from the environment's own on: what a photon carries is a sum of three, and may
-// be negative at a wavelength where a primary is. Flux counts colours by (r + g + b) / 3.
+// A texel has one colour, and a colour stands for r, g and b times the fixed spectra of the three sRGB primaries, as
+// where the environment is seen. These are three rows of the tables of lights, from the environment's own on: what a
+// photon carries is a sum of three, and may be negative at a wavelength where a primary is. Flux counts colours by (r +
+// g + b) / 3.
 //
-// Surfaces draw by the peaks alone, what is brighter than the mean over all directions: their second draw, by the cosine, finds all else
-// (Karlik et al. 2019, "MIS compensation").
+// Surfaces draw by the peaks alone, what is brighter than the mean over all directions: their second draw, by the
+// cosine, finds all else (Karlik et al. 2019, "MIS compensation").
 #ifndef NEPHROID_SKY_H
 #define NEPHROID_SKY_H
 
@@ -21,8 +23,8 @@ typedef struct {
   DeviceBackground size;
 } Sky;
 
-// A direction with what comes from there: `density` is the chance of being drawn, a steradian. Radiance is colour * density, of a sky whose
-// grey light has 1 W m^-2 of all directions together.
+// A direction with what comes from there: `density` is the chance of being drawn, a steradian. Radiance is colour *
+// density, of a sky whose grey light has 1 W m^-2 of all directions together.
 typedef struct {
   float3 direction; // unit, to the sky
   float3 rgb;
@@ -49,7 +51,8 @@ static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int 
   return place;
 }
 
-// Where in its bin a number falls that has drawn it: in the middle of its 2^24th, so that bins of a few such numbers have no side.
+// Where in its bin a number falls that has drawn it: in the middle of its 2^24th, so that bins of a few such numbers
+// have no side.
 static inline float place_in_bin(__global const float* cdf, int bin, float number)
 {
   const float before = chance_before(cdf, bin);

@@ -99,8 +99,8 @@ static inline __global const float* index_of_band(const World* world, const Band
   return world->index_of_cluster + band->cluster * world->scene.material_count;
 }
 
-// The band of a path in a cluster. light: the one that its light comes from, or light_count for a path that any light may end at;
-// u in [0, 1) picks a wavelength by what the eye makes of the light's power.
+// The band of a path in a cluster. light: the one that its light comes from, or light_count for a path that any light
+// may end at; u in [0, 1) picks a wavelength by what the eye makes of the light's power.
 static inline Band choose_band(const World* world, int light, int cluster, float u)
 {
 #if NEPHROID_JITTER
@@ -154,8 +154,8 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   return true;
 }
 
-// A light as one photon or shadow ray meets it, drawn by `place`, two numbers in [0, 1): of the environment *light becomes directional
-// light from one place.
+// A light as one photon or shadow ray meets it, drawn by `place`, two numbers in [0, 1): of the environment *light
+// becomes directional light from one place.
 static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light)
 {
   Source source = {index, (float3)(1.0f)};
@@ -201,8 +201,8 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
   return world->reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->reflector_count + reflector];
 }
 
-// What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a reflector sends
-// back of it (-1: a white one).
+// What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a
+// reflector sends back of it (-1: a white one).
 IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
 {
   if (is_of_environment(world, source.light))
