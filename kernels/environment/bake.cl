@@ -37,7 +37,8 @@ typedef struct {
 // way: unit.
 static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, float3 way, const Carried* carried)
 {
-  const size_t texel = (size_t)sphere * (size_t)(spheres->side * spheres->side) + (size_t)sphere_texel(place, spheres->side);
+  const size_t texel =
+      (size_t)sphere * (size_t)(spheres->side * spheres->side) + (size_t)sphere_texel(place, spheres->side);
   volatile __global long* const sums = spheres->film + (NEPHROID_CHANNELS + 3) * texel;
   for (int c = 0; c < NEPHROID_CHANNELS; ++c) add_exactly(sums + c, carried->channels[c]);
   const float cosine = fabs(dot(place, way)) / spheres->radii[sphere];
@@ -49,7 +50,8 @@ static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, 
 
 // Marks each crossing of the way from `origin` up to `distance` along the unit vector `direction`. The way is nearest
 // to the middle at `foot`, and a sphere of radius r is crossed sqrt(r^2 - foot^2) before and after that.
-static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 direction, float distance, const Carried* carried)
+static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 direction, float distance,
+                                const Carried* carried)
 {
   const float to_foot = -dot(origin, direction);
   const float3 foot = origin + to_foot * direction;
@@ -88,9 +90,11 @@ static inline Carried carried_by(__global const float4* light_rgb, const Band* b
 
 // Photons first .. first + count - 1 of a direction, whose number is its stream of random numbers. scale: quanta a
 // watt. energy counts the power, not its colour.
-__kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb, __global const float* radii,
-                   volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                   int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count, float scale)
+__kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb,
+                   __global const float* radii, volatile __global long* film,
+                   volatile __global long* energy, // [OUTCOME_COUNT]
+                   int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count,
+                   float scale)
 {
   const World world = WORLD;
   const Spheres spheres = {film, radii, sphere_count, side};
@@ -102,10 +106,12 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
     if (item >= count) break;
     const uint photon = first + item;
     const float4 start = sobol4(seed, (uint3)(number, 0u, 0u), 0u, photon);
-    const Emission emission = emit_directional(&light, targets + light.first_target, &scene, start.zxyw); // x and y are the best pair
+    const Emission emission =
+        emit_directional(&light, targets + light.first_target, &scene, start.zxyw); // x and y are the best pair
     const float power = emission.watts * scale;
     const Band band = choose_band(&world, 0, 0, start.w);
-    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
+                 light.inside,    no_losses(),        emission.behind};
     bool met = false;
     int outcome = OUTCOME_LOST;
     SET_ASIDE float4 choices = (float4)(0.0f);

@@ -6,15 +6,16 @@
 #include "kernels/environment/spheres.h"
 
 // E r^2 on a sphere, of all sets.
-static inline float3 caustic_one_by_one(__global const ushort* stored, __global const DeviceEightSets* sets, int set_count,
-                                        const DeviceSpheres* spheres, float3 direction, Shell shell)
+static inline float3 caustic_one_by_one(__global const ushort* stored, __global const DeviceEightSets* sets,
+                                        int set_count, const DeviceSpheres* spheres, float3 direction, Shell shell)
 {
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < set_count; ++i) {
     __global const DeviceEightSets* eight = sets + i / 8;
     const int k = i % 8;
     const FourTexels four = four_texels(in_set(eight, k, direction), spheres->side);
-    sum += flux_of_set(eight, k) * stored_between_spheres(stored + NEPHROID_CHANNELS * eight->first[k], spheres, &four, shell);
+    sum += flux_of_set(eight, k) *
+           stored_between_spheres(stored + NEPHROID_CHANNELS * eight->first[k], spheres, &four, shell);
   }
   return spheres->scale * sum;
 }
@@ -26,9 +27,10 @@ static inline float from_middle(__global const float* radii, float distance, flo
 }
 
 // As in cast.cl.
-__kernel void cast(__global const ushort* stored, __global const DeviceEightSets* sets, int set_count, __global const float* radii,
-                   DeviceSpheres spheres, __global const uint* list, uint first, uint count, int size,
-                   __global const float* distances, __global const float4* normals, __global float* caustics)
+__kernel void cast(__global const ushort* stored, __global const DeviceEightSets* sets, int set_count,
+                   __global const float* radii, DeviceSpheres spheres, __global const uint* list, uint first,
+                   uint count, int size, __global const float* distances, __global const float4* normals,
+                   __global float* caustics)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
@@ -46,8 +48,9 @@ __kernel void cast(__global const ushort* stored, __global const DeviceEightSets
 
 // Of all texels of all spheres in their stored form, in coordinates of the object, whose axes in the scene are
 // object_x, y, z.
-__kernel void compile(__global const ushort* stored, __global const DeviceEightSets* sets, int set_count, __global const float* radii,
-                      DeviceSpheres spheres, float4 object_x, float4 object_y, float4 object_z, uint count, __global float* compiled)
+__kernel void compile(__global const ushort* stored, __global const DeviceEightSets* sets, int set_count,
+                      __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y,
+                      float4 object_z, uint count, __global float* compiled)
 {
   const uint item = (uint)get_global_id(0);
   if (item >= count) return;
@@ -58,9 +61,10 @@ __kernel void compile(__global const ushort* stored, __global const DeviceEightS
   vstore3(caustic_one_by_one(stored, sets, set_count, &spheres, direction, shell), (size_t)item, compiled);
 }
 
-__kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x,
-                            float4 object_y, float4 object_z, __global const uint* list, uint first, uint count, int size,
-                            __global const float* distances, __global const float4* normals, __global float* caustics)
+__kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres,
+                            float4 object_x, float4 object_y, float4 object_z, __global const uint* list, uint first,
+                            uint count, int size, __global const float* distances, __global const float4* normals,
+                            __global float* caustics)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
@@ -70,7 +74,8 @@ __kernel void cast_compiled(__global const float* compiled, __global const float
   if (distance < INFINITY) {
     const float3 d = cube_texel_direction(texel, size);
     const Shell shell = shell_at(radii, spheres.count, distance);
-    const FourTexels four = four_texels((float3)(dot(object_x.xyz, d), dot(object_y.xyz, d), dot(object_z.xyz, d)), spheres.side);
+    const FourTexels four =
+        four_texels((float3)(dot(object_x.xyz, d), dot(object_y.xyz, d), dot(object_z.xyz, d)), spheres.side);
     const size_t map_texels = (size_t)((spheres.side + 2) * (spheres.side + 2));
     for (int i = 0; i < 4; ++i) {
       const float3 a = vload3((size_t)shell.lower * map_texels + four.texels[i], compiled);

@@ -25,7 +25,8 @@ kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* poin
   const Gathered gathered = gather_photons(&map, point.position.xyz, point.normal.xyz, point.group, radius);
   if (gathered.count == 0) return;
   const float3 xyz = convert_float3(gathered.xyz) * point.throughput.xyz;
-  if (!film_add_dithered(film_of_iteration(film, pass, (int)picture), (int)pixels[first + i], xyz, film_per_quantum, FILM_LIMIT, point.position.w))
+  if (!film_add_dithered(film_of_iteration(film, pass, (int)picture), (int)pixels[first + i], xyz, film_per_quantum,
+                         FILM_LIMIT, point.position.w))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }
 
@@ -34,8 +35,9 @@ kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* poin
 // the density stays:
 //   N' = N + alpha M,  R'^2 = R^2 N' / (N + M),  flux' = (flux + F) R'^2 / R^2.
 // The places that a pixel sees share them. unit: power of a quantum.
-kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global PixelStatistics* statistics,
-                                 uint first_pixel, uint count, float alpha, float unit)
+kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points,
+                                 global PixelStatistics* statistics, uint first_pixel, uint count, float alpha,
+                                 float unit)
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
@@ -43,7 +45,8 @@ kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint
   if (point.group == NO_PHOTON) return;
   const PhotonMap map = PHOTON_MAP;
   PixelStatistics pixel = statistics[first_pixel + i];
-  const Gathered gathered = gather_photons(&map, point.position.xyz, point.normal.xyz, point.group, sqrt(pixel.radius2));
+  const Gathered gathered =
+      gather_photons(&map, point.position.xyz, point.normal.xyz, point.group, sqrt(pixel.radius2));
   if (gathered.count == 0) return;
   const float found = (float)gathered.count, kept = pixel.count + alpha * found, shrink = kept / (pixel.count + found);
   const float3 flux = convert_float3(gathered.xyz) * point.throughput.xyz * unit;
@@ -65,8 +68,8 @@ kernel void start_statistics(global PixelStatistics* statistics, uint pixels, fl
 
 // Adds the radiance of a cluster: flux / (pi^2 R^2) over its iterations, of which pixels before `split` have had others
 // than those after. per_iteration_*: 1 / (pi^2 iterations m^2), m metres a unit of length; 0 for no iterations.
-kernel void add_radiance(global const PixelStatistics* statistics, global float* xyz, uint pixels, uint split, float per_iteration_before,
-                         float per_iteration_after)
+kernel void add_radiance(global const PixelStatistics* statistics, global float* xyz, uint pixels, uint split,
+                         float per_iteration_before, float per_iteration_after)
 {
   const uint i = get_global_id(0);
   if (i >= pixels) return;

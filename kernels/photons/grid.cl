@@ -10,7 +10,8 @@
 
 static inline uint photon_bucket(const StoredPhoton* photon, int3 cell, uint mask)
 {
-  return grid_block_bucket(photon->group, cell.x >> GRID_BLOCK_BITS, cell.y, cell.z, mask) + (uint)(cell.x & (GRID_BLOCK - 1));
+  return grid_block_bucket(photon->group, cell.x >> GRID_BLOCK_BITS, cell.y, cell.z, mask) +
+         (uint)(cell.x & (GRID_BLOCK - 1));
 }
 
 static inline int3 cell_of_photon(const StoredPhoton* photon, float inverse_cell)
@@ -57,8 +58,8 @@ kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid
 }
 
 // ends: of the buckets; turns them into where they start. No key fits the eight photons beyond the last.
-kernel void scatter_photons(global const StoredPhoton* stored, volatile global uint* ends, global float* positions, global int* values,
-                            PhotonGrid grid, uint slots)
+kernel void scatter_photons(global const StoredPhoton* stored, volatile global uint* ends, global float* positions,
+                            global int* values, PhotonGrid grid, uint slots)
 {
   const uint i = get_global_id(0);
   if (i < 8) values[ends[bucket_count(grid)] + i] = NO_PHOTON;

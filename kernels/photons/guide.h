@@ -37,10 +37,12 @@ static inline Guided guide_numbers(__global const float* guide, float4* numbers)
   const int i = draw_bin(guide, GUIDE_BINS_X, &number, &guided.density);
   moved.x = number;
   number = moved.y;
-  const int j = i * GUIDE_BINS_Y + draw_bin(guide + GUIDE_BINS_X + i * GUIDE_BINS_Y, GUIDE_BINS_Y, &number, &guided.density);
+  const int j =
+      i * GUIDE_BINS_Y + draw_bin(guide + GUIDE_BINS_X + i * GUIDE_BINS_Y, GUIDE_BINS_Y, &number, &guided.density);
   moved.y = number;
   number = moved.z;
-  const int k = draw_bin(guide + GUIDE_BINS_X + GUIDE_BINS_X * GUIDE_BINS_Y + j * GUIDE_BINS_Z, GUIDE_BINS_Z, &number, &guided.density);
+  const int k = draw_bin(guide + GUIDE_BINS_X + GUIDE_BINS_X * GUIDE_BINS_Y + j * GUIDE_BINS_Z, GUIDE_BINS_Z, &number,
+                         &guided.density);
   moved.z = number;
   numbers->xyz = moved;
   guided.cell = (uint)(j * GUIDE_BINS_Z + k);

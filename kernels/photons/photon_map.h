@@ -26,7 +26,10 @@ static inline int photon_group(int object, bool front, int cluster, int object_c
   return (cluster * object_count + object) * 2 + (front ? 1 : 0);
 }
 
-static inline int3 grid_cell(float3 position, float inverse_cell) { return convert_int3_sat_rtn(position * inverse_cell); }
+static inline int3 grid_cell(float3 position, float inverse_cell)
+{
+  return convert_int3_sat_rtn(position * inverse_cell);
+}
 
 // The first bucket of a block of cells, ix from a multiple of GRID_BLOCK on. The finalizer of MurmurHash3 (Appleby
 // 2011) mixes odd multiples.
@@ -53,8 +56,9 @@ typedef struct {
 } PhotonMap;
 
 // The buffers that a PhotonMap is made of, as kernel arguments.
-#define PHOTON_MAP_ARGUMENTS                                                                                                             \
-  __global const uint *starts, __global const float *sorted_positions, __global const int *sorted_values, PhotonGrid grid
+#define PHOTON_MAP_ARGUMENTS                                                                                           \
+  __global const uint *starts, __global const float *sorted_positions, __global const int *sorted_values,              \
+      PhotonGrid grid
 #define PHOTON_MAP {starts, sorted_positions, sorted_values, grid}
 
 typedef struct {
@@ -107,7 +111,8 @@ static inline void gather_run(const PhotonMap* map, uint begin, uint end, int ke
       const float8 dy = vload8(0, map->positions + stride + begin) - g->position.y;
       const float8 dz = vload8(0, map->positions + 2 * stride + begin) - g->position.z;
       const float8 tilted = dx * g->tilt.x + dy * g->tilt.y + dz * g->tilt.z;
-      const int8 near = (dx * dx + dy * dy + dz * dz + tilted * tilted < g->radius2) & (vload8(0, map->values + begin) == key);
+      const int8 near =
+          (dx * dx + dy * dy + dz * dz + tilted * tilted < g->radius2) & (vload8(0, map->values + begin) == key);
       sum_x += vload8(0, map->values + stride + begin) & near;
       sum_y += vload8(0, map->values + 2 * stride + begin) & near;
       sum_z += vload8(0, map->values + 3 * stride + begin) & near;
@@ -138,7 +143,8 @@ static inline Gathered gather_photons(const PhotonMap* map, float3 position, flo
   // A little is added, so that it holds every photon that passes the test, however that is rounded: what a run reads
   // beyond its cells never counts.
   const float3 reach = radius * 1.000001f * sqrt(1.0f - 16.0f / 17.0f * normal * normal) + fabs(position) * 0x1p-22f;
-  const int3 low = grid_cell(position - reach, map->grid.inverse_cell), high = grid_cell(position + reach, map->grid.inverse_cell);
+  const int3 low = grid_cell(position - reach, map->grid.inverse_cell),
+             high = grid_cell(position + reach, map->grid.inverse_cell);
   const int rows_y = min(high.y - low.y, GRID_ROWS - 1), rows_z = min(high.z - low.z, GRID_ROWS - 1);
   const int first_block = low.x >> GRID_BLOCK_BITS, blocks = min((high.x >> GRID_BLOCK_BITS) - first_block, 1);
   for (int k = 0; k <= rows_z; ++k)
@@ -146,8 +152,10 @@ static inline Gathered gather_photons(const PhotonMap* map, float3 position, flo
       for (int b = 0; b <= blocks; ++b) {
         const int block = first_block + b, iy = low.y + j, iz = low.z + k;
         const uint bucket = grid_block_bucket(group, block, iy, iz, map->grid.bucket_mask);
-        const uint first = b == 0 ? low.x & (GRID_BLOCK - 1) : 0, last = b == blocks ? high.x & (GRID_BLOCK - 1) : GRID_BLOCK - 1;
-        gather_run(map, map->starts[bucket + first], map->starts[bucket + last + 1], grid_key(group, block, iy, iz), &g);
+        const uint first = b == 0 ? low.x & (GRID_BLOCK - 1) : 0,
+                   last = b == blocks ? high.x & (GRID_BLOCK - 1) : GRID_BLOCK - 1;
+        gather_run(map, map->starts[bucket + first], map->starts[bucket + last + 1], grid_key(group, block, iy, iz),
+                   &g);
       }
   settle(&g);
   return g.sum;

@@ -52,7 +52,8 @@ typedef struct {
 } PixelStatistics;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(StoredPhoton) == 32 && sizeof(PhotonGrid) == 12 && sizeof(VisiblePoint) == 64 && sizeof(PixelStatistics) == 20);
+static_assert(sizeof(StoredPhoton) == 32 && sizeof(PhotonGrid) == 12 && sizeof(VisiblePoint) == 64 &&
+              sizeof(PixelStatistics) == 20);
 } // namespace nephroid::shared
 #endif
 

@@ -61,12 +61,13 @@ static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float
 
 // The receiver beside the photon's triangle: what a short look back along the normal meets there. False where that is
 // not the same object, facing the same way: the receiver ends, or something stands on it.
-static inline bool surface_beside(const World* world, const PhotonEnd* end, float side, float3 place, Surface* surface, uint* triangle)
+static inline bool surface_beside(const World* world, const PhotonEnd* end, float side, float3 place, Surface* surface,
+                                  uint* triangle)
 {
   const float reach = 0.1f * distance(place, end->surface.position) + 8.0f * end->surface.offset;
   const float3 down = -side * end->surface.geometric;
-  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, place - reach * down, down, 0.0f,
-                              2.0f * reach, NEPHROID_NO_PRIMITIVE);
+  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, place - reach * down,
+                              down, 0.0f, 2.0f * reach, NEPHROID_NO_PRIMITIVE);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return false;
   *surface = surface_at(&world->geometry, hit);
   *triangle = hit.primitive;
@@ -75,8 +76,8 @@ static inline bool surface_beside(const World* world, const PhotonEnd* end, floa
 
 // Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels.
 // *beside: set where that is in another triangle.
-static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float x,
-                               float2* film_place, bool* beside)
+static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
+                               float x, float2* film_place, bool* beside)
 {
   float3 place;
   if (!stretched_place(path, &end->surface, x, &place)) return false;
@@ -86,13 +87,14 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
   *beside = true;
   Surface surface;
   uint triangle;
-  return surface_beside(world, end, dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f, place, &surface, &triangle);
+  return surface_beside(world, end, dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f, place, &surface,
+                        &triangle);
 }
 
 // Tries to stretch a photon from `low` to `high`, its s being 0. False where that leads off the receiver or too far to
 // know where.
-static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float low,
-                                float high, Stretch* stretch)
+static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
+                                float low, float high, Stretch* stretch)
 {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
   float2 first, last = (float2)(0.0f);
@@ -101,7 +103,8 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
     if (!stretch_end(world, camera, end, path, i == 0 ? low : high, &last, &stretch->beside)) return false;
   }
   const float pixels = distance(first, last);
-  if (!(pixels < STRETCH_SHORTEST)) stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
+  if (!(pixels < STRETCH_SHORTEST))
+    stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
   return true;
 }
 
@@ -109,7 +112,8 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
 // wavelength; else a point. The first choice rests on where the whole cluster's light goes and not on the photon's
 // wavelength, so it is the same for all of them, and no light is counted twice or lost where a streak would leave the
 // receiver.
-static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, const Band* band)
+static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
+                                 const Band* band)
 {
 #if NEPHROID_DIFFERENTIALS
   const float origin = stretch_origin(world, band);
@@ -136,13 +140,15 @@ static inline float place_in_tent(const World* world, int wavelength, float u, f
 // s less the photon's.
 static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x)
 {
-  const int cluster = made_late(photon->cluster), first = world->tables.first[cluster], count = world->tables.first[cluster + 1] - first;
+  const int cluster = made_late(photon->cluster), first = world->tables.first[cluster],
+            count = world->tables.first[cluster + 1] - first;
   const int members = world->tables.first[world->scene.cluster_count];
   __global const float* cdf = world->wavelength_cdf + light * members + first;
   const int member = choose(cdf, count, u);
   const float before = chance_before(cdf, member);
   const Band band = {photon->cluster, world->tables.wavelengths[first + member], 1.0f / (cdf[member] - before)};
-  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f), stretch_origin(world, photon));
+  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f),
+                     stretch_origin(world, photon));
   return band;
 }
 
@@ -156,8 +162,8 @@ typedef struct {
 // The splat number i of stretch->count; u in [0, 1), the same for all of them: they take turns through the cluster's
 // distribution, and with jitter the first is of the photon's own wavelength. False where it does not reach the
 // receiver.
-static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source, const Band* band,
-                             const Stretch* stretch, int i, float u, Strand* strand)
+static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source,
+                             const Band* band, const Stretch* stretch, int i, float u, Strand* strand)
 {
   strand->surface = end->surface;
   strand->triangle = end->triangle;
@@ -166,7 +172,8 @@ static inline bool strand_of(const World* world, const PhotonEnd* end, const Pat
   const int reflector = material_of(world, end->surface.object).reflector;
   if (stretch->count == 1) {
     const Band whole = whole_cluster(band->cluster);
-    if (stretch->whole && band->wavelength >= 0) strand->xyz = carried_light(world, &path->losses, source, &whole, reflector).xyz;
+    if (stretch->whole && band->wavelength >= 0)
+      strand->xyz = carried_light(world, &path->losses, source, &whole, reflector).xyz;
     return true;
   }
   float turned = u + (float)i / (float)stretch->count;

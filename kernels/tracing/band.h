@@ -25,7 +25,8 @@ static inline Band whole_cluster(int cluster)
 }
 
 // One wavelength of a cluster, whose members are `wavelengths` and have this cdf; u in [0, 1).
-static inline Band wavelength_of_cluster(int cluster, __global const int* wavelengths, __global const float* cdf, int count, float u)
+static inline Band wavelength_of_cluster(int cluster, __global const int* wavelengths, __global const float* cdf,
+                                         int count, float u)
 {
   const int member = choose(cdf, count, u);
   const float before = chance_before(cdf, member);

@@ -49,7 +49,8 @@
 
 typedef struct {
   float t;        // distance in lengths of the direction; the t_max given where nothing was hit
-  float u, v;     // barycentric: the point is (1 - u - v) v0 + u v1 + v v2; of an ellipsoid: of its point (u, v, w) on the unit sphere
+  float u, v; // barycentric: the point is (1 - u - v) v0 + u v1 + v v2; of an ellipsoid: of its point (u, v, w) on the
+              // unit sphere
   uint primitive; // of a triangle, or counted on from their number of an ellipsoid, or NEPHROID_NO_PRIMITIVE
 #if NEPHROID_ELLIPSOIDS
   float w;
@@ -169,7 +170,8 @@ static inline int bvh_boxes(global const float* node, const BvhRay* r, float t_m
 }
 
 // One block of 4 triangles. Returns the mask of those hit within (t_min, t_max], with distance and barycentrics.
-static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_min, float t_max, float4* t, float4* u, float4* v)
+static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_min, float t_max, float4* t,
+                                float4* u, float4* v)
 {
 // A fused multiply-add would round one of the two products of an edge function and not the other, and its sign could be
 // wrong.
@@ -206,8 +208,8 @@ static inline float3 bvh_to_unit_sphere(global const float* ellipsoid, float3 wa
 // nearest point of the line to the unit sphere's centre and e the direction there, |l + s e| = 1 at s = +-sqrt((1 -
 // l^2) / e^2). leaves: the ray starts on it, so one of its two hits is that; the other lies ahead where the middle
 // between them does.
-static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r, float t_min, float t_max, bool leaves, float* t,
-                                 float3* unit)
+static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r, float t_min, float t_max, bool leaves,
+                                 float* t, float3* unit)
 {
   const float3 from_centre = r->origin - vload3(0, ellipsoid);
   const float way = -dot(from_centre, r->direction) / dot(r->direction, r->direction);
@@ -232,8 +234,8 @@ static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r,
 #else
 // The closest hit with t_min < t <= t_max, other than with triangle `skip` or where the ray leaves ellipsoid `skip`. No
 // hit: t is t_max.
-static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max,
-                              uint skip)
+static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
+                              float t_max, uint skip)
 {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
   int at = root;
@@ -333,7 +335,8 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
 }
 
 // Whether anything other than what bvh_closest skips is hit with t_min < t <= t_max.
-static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
+static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
+                           float t_max, uint skip)
 {
 #if BVH_LEAF_ONLY
   {
@@ -348,7 +351,8 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
       global const float* node = nodes + 64 * (size_t)at;
       global const int* children = (global const int*)(node + 48);
       float8 entry;
-      for (int mask = bvh_boxes(node, &ray, t_min, t_max, &entry); mask; mask &= mask - 1) waiting[top++] = children[bvh_lowest_bit(mask)];
+      for (int mask = bvh_boxes(node, &ray, t_min, t_max, &entry); mask; mask &= mask - 1)
+        waiting[top++] = children[bvh_lowest_bit(mask)];
       continue;
     }
 #endif
@@ -384,8 +388,8 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
 // (NEPHROID_NO_PRIMITIVE: none); an ellipsoid is met again on its far side.
 // The direction need not be of unit length, but neither zero nor smaller than 1e-15. t_min may be negative: a ray from
 // afar is known more exactly by a point of it near what it is sent to.
-static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_min,
-                              float t_max, uint skip)
+static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
+                              float3 direction, float t_min, float t_max, uint skip)
 {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);
@@ -404,8 +408,8 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
 }
 
 // Whether anything other than `skip`, as above, is hit with 0 < t <= t_max.
-static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max,
-                           uint skip)
+static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
+                           float3 direction, float t_max, uint skip)
 {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);

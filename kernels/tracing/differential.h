@@ -42,7 +42,8 @@ static inline float3 reflected_differential(float3 direction, float3 d_direction
 // c^2). So
 //   T' = e' D + e D' + m' N + m N',  m' = e' c + e c' - q',  q' = (e^2 c c' - e e' (1 - c^2)) / q.
 // Not finite at the critical angle, where q = 0.
-static inline float3 refracted_differential(float3 direction, float3 d_direction, float3 normal, float3 d_normal, float eta, float d_eta)
+static inline float3 refracted_differential(float3 direction, float3 d_direction, float3 normal, float3 d_normal,
+                                            float eta, float d_eta)
 {
   const float cos_i = -dot(direction, normal);
   const float d_cos_i = -(dot(d_direction, normal) + dot(direction, d_normal));
@@ -90,19 +91,21 @@ static inline void differential_to_surface(Differential* d, float3 direction, fl
 
 // Across a bend at that surface. direction: before it; n_i, n_t and their n': before and after an interface, all the
 // same at a mirror.
-static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive, const Surface* surface,
-                                             float3 direction, const Bend* bend, float n_i, float n_t, float d_n_i, float d_n_t)
+static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive,
+                                             const Surface* surface, float3 direction, const Bend* bend, float n_i,
+                                             float n_t, float d_n_i, float d_n_t)
 {
 #if NEPHROID_DIFFERENTIALS
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   float3 d_normal = (float3)(0.0f);
   const DevicePrimitive met = geometry->primitives[primitive];
-  const bool interpolated = NEPHROID_SMOOTH && kind_of(&met) == PRIMITIVE_SMOOTH && any(bend->normal != side * surface->geometric);
+  const bool interpolated =
+      NEPHROID_SMOOTH && kind_of(&met) == PRIMITIVE_SMOOTH && any(bend->normal != side * surface->geometric);
   if (interpolated || is_ellipsoid(&met)) d_normal = side * normal_differential(&met, surface->position, d->position);
   const float eta = n_i / n_t;
-  d->direction = bend->transmitted
-                     ? refracted_differential(direction, d->direction, bend->normal, d_normal, eta, (d_n_i - eta * d_n_t) / n_t)
-                     : reflected_differential(direction, d->direction, bend->normal, d_normal);
+  d->direction = bend->transmitted ? refracted_differential(direction, d->direction, bend->normal, d_normal, eta,
+                                                            (d_n_i - eta * d_n_t) / n_t)
+                                   : reflected_differential(direction, d->direction, bend->normal, d_normal);
 #endif
 }
 

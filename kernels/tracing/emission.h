@@ -11,7 +11,7 @@
 typedef struct {
   float3 origin, direction; // the photon flies along origin + t direction, t > -behind
   float behind;             // the light is this far behind the origin, which lies beside a small target: see aim
-  float watts;              // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted
+  float watts; // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted
 } Emission;
 
 // Two vectors that make an orthonormal frame with the unit vector n (Duff et al. 2017).
@@ -88,7 +88,8 @@ static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 r
 }
 
 // A photon from a point towards the targets: its line is written to *photon. Returns 1 / density in steradians.
-static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random, Emission* photon)
+static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random,
+                                   Emission* photon)
 {
   float one_minus_cos[MAX_TARGETS];
   float sum = 0.0f;
@@ -112,8 +113,10 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
   Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, 0.0f};
   if (is_light(light, LIGHT_SPOT)) {
     float towards_targets = 0.0f;
-    for (int i = 0; i < target_count; ++i) towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
-    if (light->solid_angle <= towards_targets) { // the spot's own cone is the tighter one: every photon carries the same
+    for (int i = 0; i < target_count; ++i)
+      towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
+    if (light->solid_angle <=
+        towards_targets) { // the spot's own cone is the tighter one: every photon carries the same
       float below;
       float3 aside;
       emission.direction = sample_cone(light->direction.xyz, light->one_minus_cos, random.y, random.z, &below, &aside);
@@ -131,7 +134,8 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
 
 // Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per
 // steradian.
-static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random, float2 place)
+static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random,
+                                      float2 place)
 {
   Emission emission;
   const float steradians = sample_targets(targets, light->target_count, area_point(light, place), random, &emission);
@@ -140,8 +144,8 @@ static inline Emission emit_from_area(const DeviceLight* light, __global const D
   return emission;
 }
 
-static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
-                                        float4 random)
+static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets,
+                                        const DeviceScene* scene, float4 random)
 {
   const float3 direction = light->direction.xyz;
   const int target_count = light->target_count;
@@ -168,17 +172,19 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
     if (i != chosen && dot(aside, aside) <= targets[i].centre_radius.w * targets[i].centre_radius.w) ++count;
   }
   const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
-  const Emission emission = {place, direction, scene->outside_distance, light->radiometric * square_metres / (float)count};
+  const Emission emission = {place, direction, scene->outside_distance,
+                             light->radiometric * square_metres / (float)count};
   return emission;
 }
 
 // targets: the whole table, of which a light has its own list. Of the environment: as source_of (world.h) has turned it
 // for one photon.
-static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random,
-                            float2 place)
+static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
+                            float4 random, float2 place)
 {
   targets += light->first_target;
-  if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT)) return emit_directional(light, targets, scene, random);
+  if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT))
+    return emit_directional(light, targets, scene, random);
   if (is_light(light, LIGHT_AREA)) return emit_from_area(light, targets, random, place);
   return emit_from_point(light, targets, random);
 }

@@ -14,7 +14,10 @@
 
 // The largest that the sample of that number may have, of which a pixel takes `enough` with a limit of their own and
 // any number more.
-static inline float limit_of_sample(uint number, uint enough, float limit) { return number < enough ? limit : fmin(limit, FILM_LIMIT); }
+static inline float limit_of_sample(uint number, uint enough, float limit)
+{
+  return number < enough ? limit : fmin(limit, FILM_LIMIT);
+}
 
 #ifdef NEPHROID_INT64_ATOMICS
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
@@ -41,7 +44,8 @@ static inline volatile __global long* film_of_iteration(volatile __global long* 
 // Adds xyz * scale to a pixel. dither: uniform in [0, 1); then a contribution of q quanta, however small, adds q in the
 // mean, where rounding to the nearest would lose all below a half. Returns false, and adds nothing, where that is not
 // finite or above `limit` quanta.
-static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit, float dither)
+static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit,
+                                     float dither)
 {
   const float3 quanta = xyz * scale;
   if (!(fabs(quanta.x) <= limit && fabs(quanta.y) <= limit && fabs(quanta.z) <= limit)) return false;

@@ -26,7 +26,10 @@ static inline float fresnel_reflectance(float cos_i, float cos_t, float n_i, flo
 }
 
 // normal: unit, against the incoming direction; cos_i = -dot(direction, normal) >= 0.
-static inline float3 reflect_about(float3 direction, float3 normal, float cos_i) { return direction + 2.0f * cos_i * normal; }
+static inline float3 reflect_about(float3 direction, float3 normal, float cos_i)
+{
+  return direction + 2.0f * cos_i * normal;
+}
 static inline float3 refract_through(float3 direction, float3 normal, float cos_i, float cos_t, float eta)
 {
   return normalize(eta * direction + (eta * cos_i - cos_t) * normal);

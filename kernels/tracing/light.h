@@ -32,7 +32,10 @@ static inline bool in_spot(const DeviceLight* light, float3 direction)
 }
 
 // Whether a photon begins at a place of its own: on a rectangle, or in the environment.
-static inline bool has_places(const DeviceLight* light) { return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT); }
+static inline bool has_places(const DeviceLight* light)
+{
+  return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT);
+}
 
 // A point of an area light's rectangle.
 static inline float3 area_point(const DeviceLight* light, float2 place)

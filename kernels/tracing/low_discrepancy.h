@@ -54,7 +54,10 @@ static inline uint4 permute_by_lower_bits(uint4 x, uint4 key)
   return x;
 }
 
-static inline uint4 reverse_bits4(uint4 x) { return (uint4)(reverse_bits(x.x), reverse_bits(x.y), reverse_bits(x.z), reverse_bits(x.w)); }
+static inline uint4 reverse_bits4(uint4 x)
+{
+  return (uint4)(reverse_bits(x.x), reverse_bits(x.y), reverse_bits(x.z), reverse_bits(x.w));
+}
 
 // Point `index` of four dimensions, in units of 2^-32. sequence: what it is for, part of the key; set: sets of one
 // sequence are independent of each other.
@@ -64,7 +67,9 @@ static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index
   // The order of the points of every set but the first is shuffled by a key of its own, so that sets are not paired
   // alike.
   uint shuffled = index;
-  if (set != 0u) shuffled = reverse_bits(permute_by_lower_bits((uint4)(reverse_bits(index)), (uint4)(key.x ^ key.w * 0x9e3779b9u)).x);
+  if (set != 0u)
+    shuffled =
+        reverse_bits(permute_by_lower_bits((uint4)(reverse_bits(index)), (uint4)(key.x ^ key.w * 0x9e3779b9u)).x);
   uint3 bits = (uint3)(0u);
   ROLLED
   for (int i = 0; i < 32; ++i) bits ^= sobol_directions[i] & (uint3)(0u - (shuffled >> i & 1u));

@@ -9,7 +9,10 @@
 
 #define MEDIUM_MASK ((1ul << MEDIUM_BITS) - 1ul)
 
-static inline bool is_in_air(const Media* media) { return media->latest == 0ul; } // the earlier ones come after four others
+static inline bool is_in_air(const Media* media)
+{
+  return media->latest == 0ul;
+} // the earlier ones come after four others
 
 // The object that was entered last, which is not none.
 static inline int latest_medium(const Media* media) { return (int)(media->latest & MEDIUM_MASK) - 1; }

@@ -14,8 +14,8 @@
 
 #ifdef NEPHROID_GPU
 typedef volatile __local uint* Outcomes; // lower and upper halves: atomics of 64 bits in local memory are rare, or slow
-#define OUTCOMES(name)                                                                                                                   \
-  __local uint name[2 * OUTCOME_COUNT];                                                                                                  \
+#define OUTCOMES(name)                                                                                                 \
+  __local uint name[2 * OUTCOME_COUNT];                                                                                \
   begin_outcomes(name)
 
 static inline void begin_outcomes(Outcomes outcomes)

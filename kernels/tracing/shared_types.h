@@ -79,7 +79,8 @@ typedef struct {
   int type;            // LIGHT_*
   float one_minus_cos; // spot: of its half angle
   float solid_angle;   // spot: of its cone, in steradians
-  float radiometric;   // point, spot, area: power in W; directional: irradiance in W m^-2; environment: of all directions together
+  float radiometric; // point, spot, area: power in W; directional: irradiance in W m^-2; environment: of all directions
+                     // together
   Media inside;        // directional, environment: none
   int first_target;    // in the table of targets: those that this light can reach
   int target_count;

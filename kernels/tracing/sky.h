@@ -18,7 +18,7 @@
 #include "kernels/tracing/light.h"
 
 typedef struct {
-  __global const float* cdf;    // exact_cdf of the rows, then of the texels of each row: by flux; then the same by peaks
+  __global const float* cdf; // exact_cdf of the rows, then of the texels of each row: by flux; then the same by peaks
   __global const float* colour; // [row][column][3]: linear sRGB of a texel over its grey: Source::rgb
   DeviceBackground size;
 } Sky;
@@ -32,7 +32,10 @@ typedef struct {
   float peak_density; // the chance among the peaks, a steradian
 } SkyPlace;
 
-static inline __global const float* cdf_of_peaks(const Sky* sky) { return sky->cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1); }
+static inline __global const float* cdf_of_peaks(const Sky* sky)
+{
+  return sky->cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1);
+}
 
 static inline float sky_density(const Sky* sky, __global const float* cdf, int row, int column)
 {
@@ -40,14 +43,16 @@ static inline float sky_density(const Sky* sky, __global const float* cdf, int r
   __global const float* columns = cdf + height + (size_t)row * (size_t)width;
   const float row_chance = cdf[row] - chance_before(cdf, row), column_chance = columns[column] - chance_before(columns, column);
   // cos a - cos b as a product, exact for thin rows.
-  const float steradians = 4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
+  const float steradians =
+      4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
   return row_chance * column_chance / steradians;
 }
 
 static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int column)
 {
   const SkyPlace place = {direction, vload3((size_t)row * (size_t)sky->size.width + (size_t)column, sky->colour),
-                          sky_density(sky, sky->cdf, row, column), sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
+                          sky_density(sky, sky->cdf, row, column),
+                          sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
   return place;
 }
 
@@ -74,7 +79,8 @@ static inline SkyPlace sample_sky(const Sky* sky, __global const float* cdf, flo
   const float deep = 2.0f * sin(PI_F * ((float)from_pole + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
   const float below = 2.0f * edge * edge + (upper ? within : 1.0f - within) * deep;
   const float sine = sqrt(fmax(below * (2.0f - below), 0.0f));
-  const float azimuth = ((float)column + place_in_bin(columns, column, place.y)) / (float)width - 0.5f - sky->size.turns;
+  const float azimuth =
+      ((float)column + place_in_bin(columns, column, place.y)) / (float)width - 0.5f - sky->size.turns;
   float cosine_azimuth;
   const float sine_azimuth = sincos(2.0f * PI_F * azimuth, &cosine_azimuth);
   const float3 direction = {sine * sine_azimuth, upper ? 1.0f - below : below - 1.0f, -sine * cosine_azimuth};

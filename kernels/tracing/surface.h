@@ -29,7 +29,10 @@ typedef struct {
 
 static inline int kind_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) & 3; }
 static inline int object_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) >> 2; }
-static inline bool is_ellipsoid(const DevicePrimitive* primitive) { return NEPHROID_ELLIPSOIDS && kind_of(primitive) >= PRIMITIVE_ELLIPSOID; }
+static inline bool is_ellipsoid(const DevicePrimitive* primitive)
+{
+  return NEPHROID_ELLIPSOIDS && kind_of(primitive) >= PRIMITIVE_ELLIPSOID;
+}
 
 static inline int object_of_primitive(const Geometry* geometry, uint primitive)
 {
@@ -50,7 +53,8 @@ typedef struct {
 
 static inline VertexNormals vertex_normals(const DevicePrimitive* triangle)
 {
-  const VertexNormals normals = {unpacked_normal(triangle->normal.x, triangle->normal.y), unpacked_normal(triangle->normal.z, triangle->normal.w),
+  const VertexNormals normals = {unpacked_normal(triangle->normal.x, triangle->normal.y),
+                                 unpacked_normal(triangle->normal.z, triangle->normal.w),
                                  unpacked_normal(triangle->edge_u.w, triangle->edge_v.w)};
   return normals;
 }
@@ -132,7 +136,10 @@ static inline Surface surface_at(const Geometry* geometry, Hit hit)
 }
 
 // A start for a ray that leaves on the outer (side 1) or inner (side -1) side.
-static inline float3 start_on_side(const Surface* surface, float side) { return surface->position + side * surface->offset * surface->geometric; }
+static inline float3 start_on_side(const Surface* surface, float side)
+{
+  return surface->position + side * surface->offset * surface->geometric;
+}
 
 // A photon near grazing may count as so many: where a facet gets next to nothing, and its shading normal says
 // otherwise, single photons would be bright specks. What is cut off is less than the light on a facet that arrives
@@ -173,7 +180,8 @@ static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t
   const float eta = n_i / n_t;
   const float cos_t = refracted_cosine(cos_i, eta);
   bend.transmitted = cos_t >= 0.0f && !(choice < fresnel_reflectance(cos_i, cos_t, n_i, n_t));
-  bend.direction = bend.transmitted ? refract_through(direction, normal, cos_i, cos_t, eta) : reflect_about(direction, normal, cos_i);
+  bend.direction = bend.transmitted ? refract_through(direction, normal, cos_i, cos_t, eta)
+                                    : reflect_about(direction, normal, cos_i);
   return bend;
 }
 
