@@ -3,7 +3,7 @@
 """Judges a lens of engine 3 by its STL alone, with no line of the program's own code. Needs numpy and Pillow.
 
     tests/experiments/lens.py OUT/object.stl --index 1.55 --distance 150 --picture photo.png   rel_l2 at 64 to 256 cells
-    tests/experiments/lens.py OUT/object.stl --index 1.55 --distance 150 --rings 128           of even grey, 128 x 128 facets
+    tests/experiments/lens.py OUT/object.stl --index 1.55 --distance 150 --rings 128           of even grey, 128 x 128
 
 Parallel light falls straight onto the front, and on each triangle of the relief as much as it covers of the front: at
 random points of the triangle. Snell's law in vectors and Fresnel's equations bend and weaken it. A ray leaves a height

@@ -270,9 +270,9 @@ def povray(scene, folder, works, gather, read_picture):
             text += f"inside_vector <0,1,0> {glass} }}\n"
     pictures, seconds = [], []
     for work in works:
-        how = f"photons {{ count {work} autostop 0 {gather} max_trace_level {DEEP} }}" if "body" in scene else \
+        how = f"photons {{ count {work} autostop 0 {gather} max_trace_level {DEEP} }}" if "body" in scene else (
             f"radiosity {{ count {work} error_bound .5 recursion_limit 6 pretrace_end .01 nearest_count 10 "
-            "low_error_factor .5 brightness 1 }"
+            "low_error_factor .5 brightness 1 }")
         (folder / "scene.pov").write_text(f"#version 3.7;\nglobal_settings "
                                           f"{{ assumed_gamma 1 max_trace_level {DEEP} adc_bailout 0 {how} }}\n{text}")
         command = ["povray", "+Iscene.pov", "+Oscene.hdr", "+FH", f"+W{SIDE}", f"+H{SIDE}", "-D", "+WT2", "+A0.0",
