@@ -21,8 +21,8 @@ static inline float3 shown_after(const World* world, const Background* backgroun
     xyz += wavelength_left(&world->tables, losses, w) * background_xyz(background, rgb, w);
   return xyz;
 #else
-  return wavelength_left(&world->tables, losses, band->wavelength) * band->weight *
-         background_xyz(background, rgb, band->wavelength);
+  return wavelength_left(&world->tables, losses, band->wavelength)
+         * band->weight * background_xyz(background, rgb, band->wavelength);
 #endif
 }
 
@@ -34,8 +34,8 @@ static inline float3 seen_through(const World* world, const Background* backgrou
   const float radiance_scale = trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS, pixel,
                                          STREAM_BACKGROUND, false, &surface);
   if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
-  return radiance_scale *
-         shown_after(world, background, background_rgb(background, path.direction), &path.losses, band);
+  return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses,
+                                      band);
 }
 
 // samples: [count]: of which pixel, and its number there. enough: of limit_of_sample.
