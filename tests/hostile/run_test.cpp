@@ -2,8 +2,6 @@
 // Runs that are interrupted, killed, resumed, repeated, given one thread or two, a full disk, no HOME: the same bits or a clear line.
 #include "image/image.h"
 #include "measure/run_files.h"
-#include "preset/read.h"
-#include "run/run.h"
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
 #include "tests/support/test_kernels.h"
@@ -246,75 +244,6 @@ TEST_F(Runs, SayOnATerminalThatTheyCompileKernels)
   EXPECT_THAT(messages_of(run("b", {"--passes", "1"})), IsEmpty()) << "elsewhere it would be one line more to read";
 }
 
-TEST_F(Runs, LeavePicturesAtTheTimesThatWereAskedFor)
-{
-  const Ended ended = run("a", {"--seconds", "1", "--pictures-at", ".6,+2e-1,9,.2", "--json"});
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr("no picture at 9 s"));
-  const json pictures = run_json("a").at("pictures");
-  ASSERT_EQ(pictures.size(), 2u);
-  std::vector<json> told;
-  for (const json& line : json_lines(ended.out))
-    if (line["type"] == "picture") told.push_back(line);
-  ASSERT_EQ(told.size(), 2u);
-  const auto history = nephroid::measure::read_history(file("a", "history.csv"));
-  for (std::size_t i = 0; i < 2; ++i) {
-    const json& made = pictures[i];
-    EXPECT_EQ(made["seconds"], i == 0 ? 0.2 : 0.6);
-    EXPECT_EQ(made["picture"], i == 0 ? "at-0000.2s.png" : "at-0000.6s.png");
-    EXPECT_EQ(told[i]["picture"], made["picture"]);
-    EXPECT_EQ(told[i]["errors"], made["errors"]);
-    EXPECT_TRUE(fs::exists(scratch.path() / "a" / made["picture"]));
-    const double when = made["work_seconds"];
-    EXPECT_GE(when, made["seconds"]);
-    EXPECT_TRUE(std::ranges::none_of(history.rows, [&](const auto& r) { return r.seconds > made["seconds"] && r.seconds < when - 1e-5; }))
-        << "it is of the first step that ends after its time";
-    const auto row =
-        std::find_if(history.rows.begin(), history.rows.end(), [&](const auto& r) { return std::abs(r.seconds - when) < 1e-5; });
-    ASSERT_NE(row, history.rows.end()) << "its error is its own";
-    const double error = nephroid::job::error_in(history, *row, "estimated_lab_mean");
-    EXPECT_NEAR(made["errors"]["estimated_lab_mean"], error, 1e-4 * error);
-  }
-  const auto early = nephroid::image::read_image(file("a", "at-0000.2s.exr")), last = nephroid::image::read_image(file("a", "image.exr"));
-  EXPECT_EQ(early.channels, last.channels);
-  if (pictures[0]["work_seconds"] > 0.3) return; // the machine stood still, and a step took as long as many
-  EXPECT_LT(pictures[1]["errors"]["estimated_rel_l2"], pictures[0]["errors"]["estimated_rel_l2"]);
-  EXPECT_NE(early.data, last.data);
-
-  EXPECT_THAT(messages_of(run("a", {"--passes", "1"})), IsEmpty());
-  EXPECT_FALSE(fs::exists(file("a", "at-0000.2s.png"))) << "another run's";
-  EXPECT_FALSE(fs::exists(file("a", "pictures.json")));
-}
-
-TEST_F(Runs, KeepTheirPicturesWhenTheyGoOn)
-{
-  ASSERT_EQ(run("a", {"--seconds", ".5", "--pictures-at", ".2"}).exit_code, 0);
-  const std::string before = read_file(file("a", "at-0000.2s.png"));
-  // However long the last step took, the second picture is still to come.
-  const double later = std::ceil(10 * run_json("a")["work_seconds"].get<double>() + 1) / 10;
-  const Ended ended =
-      run("a", {"--seconds", fmt::to_string(later + 0.2), "--pictures-at", fmt::format(".1,.2,{}", later), "--resume"});
-  ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr("0.1 s of work are past"));
-  EXPECT_THAT(ended.err, testing::Not(HasSubstr("0.2 s of work are past")));
-  EXPECT_TRUE(read_file(file("a", "at-0000.2s.png")) == before);
-  ASSERT_EQ(run_json("a").at("pictures").size(), 2u);
-  EXPECT_EQ(run_json("a")["pictures"][0]["seconds"], 0.2);
-  const std::string picture = run_json("a")["pictures"][1]["picture"];
-  EXPECT_THAT(ended.err, testing::ContainsRegex(picture + " after [0-9.]+ s of work, estimated_lab_mean "));
-
-  // Killed after a picture and before the next checkpoint: the work is done again, and so is the picture.
-  json list = json::parse(read_file(file("a", "pictures.json")));
-  list[1]["work_seconds"] = 1000;
-  write_file_whole(file("a", "pictures.json"), list.dump());
-  ASSERT_EQ(run("a", {"--seconds", fmt::to_string(later + 0.3), "--resume"}).exit_code, 0);
-  EXPECT_EQ(run_json("a")["pictures"].size(), 1u);
-  EXPECT_FALSE(fs::exists(file("a", picture.c_str())));
-
-  write_file_whole(file("a", "pictures.json"), "[{}, 3");
-  EXPECT_EQ(run("a", {"--seconds", fmt::to_string(later + 0.4), "--resume"}).exit_code, 0) << "a damaged list is none";
-}
-
 TEST_F(Runs, BadOutputFoldersAreRefusedBeforeRendering)
 {
   write_file_whole(scratch.path() / "file", "mine");
@@ -372,30 +301,6 @@ TEST_F(Runs, NeedNoHome)
   const Ended ended =
       run("a", {"--passes", "1"}, {{"HOME", std::nullopt}, {"XDG_CACHE_HOME", std::nullopt}, {"POCL_CACHE_DIR", std::nullopt}});
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
-}
-
-TEST(Prepare, LendsTheTreeWhereTheTrianglesAreTheSame)
-{
-  using nephroid::run::prepare;
-  const auto preset = nephroid::preset::read_preset("spectral/plate");
-  const auto first = prepare(preset);
-  auto seen_from_above = preset;
-  seen_from_above.scene.camera.position = {0, 30, 0.1};
-  const auto second = prepare(seen_from_above, &first);
-  EXPECT_EQ(second.loaded->bvh, first.loaded->bvh);
-  const auto fresh = prepare(seen_from_above);
-  EXPECT_NE(fresh.loaded->bvh, first.loaded->bvh);
-  EXPECT_EQ(second.loaded->scene.camera.position, fresh.loaded->scene.camera.position) << "the camera is the new one";
-  EXPECT_NE(second.loaded->scene.camera.position, first.loaded->scene.camera.position);
-
-  auto brighter = preset;
-  brighter.scene.lights[0].irradiance_w_m2 *= 2;
-  EXPECT_EQ(prepare(brighter, &first).loaded->bvh, first.loaded->bvh);
-  EXPECT_EQ(prepare(brighter, &first).loaded->scene.lights[0].irradiance_w_m2, brighter.scene.lights[0].irradiance_w_m2);
-
-  auto turned = preset;
-  turned.scene.objects[0].transform.rotate_deg = {0, 10, 0};
-  EXPECT_NE(prepare(turned, &first).loaded->bvh, first.loaded->bvh);
 }
 
 } // namespace nephroid::run_test
