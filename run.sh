@@ -44,4 +44,4 @@ else
   say_phases
 fi
 say "the picture is $picture"
-say "what next: ./run.sh presets lists the presets, ./run.sh first-light opens the window, ./run.sh --help says the rest"
+say "what next: ./run.sh presets lists presets, ./run.sh first-light opens the window, ./run.sh --help says the rest"

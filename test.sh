@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # ./test.sh [PRESET] [CTEST ARGS...] installs what is missing (Debian 12 or 13), builds and runs every test.
-# PRESET is one of CMakePresets.json: release (the default), debug, ci, asan, tsan, clang, headless. ./test.sh asan -R Dispersion
-# runs the suites with that in their name under AddressSanitizer and UndefinedBehaviorSanitizer.
+# PRESET is one of CMakePresets.json: release (the default), debug, ci, asan, tsan, clang, headless. ./test.sh asan -R
+# Dispersion runs the suites with that in their name under AddressSanitizer and UndefinedBehaviorSanitizer.
 set -euo pipefail
 root=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 # shellcheck source=cmake/build.sh
@@ -28,17 +28,19 @@ prepare_build() {
 
 run_tests() {
   # The suppressions and their reasons: tests/sanitizers/.
-  # intercept_tls_get_addr: LeakSanitizer of g++ 12 misreads the thread-local blocks of libraries that are loaded late, as PoCL and
-  # the picture module are, and now and then crashes itself at the end of a sound run. use_sigaltstack: so does AddressSanitizer where
-  # a thread of the OpenGL driver has a signal stack of its own.
-  export ASAN_OPTIONS="strict_string_checks=1:detect_stack_use_after_return=1:intercept_tls_get_addr=0:use_sigaltstack=0${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
-  export LSAN_OPTIONS="suppressions=$root/tests/sanitizers/leak.supp:print_suppressions=0${LSAN_OPTIONS:+:$LSAN_OPTIONS}"
+  # intercept_tls_get_addr: LeakSanitizer of g++ 12 misreads the thread-local blocks of libraries that are loaded late,
+  # as PoCL and the picture module are, and now and then crashes itself at the end of a sound run. use_sigaltstack: so
+  # does AddressSanitizer where a thread of the OpenGL driver has a signal stack of its own.
+  local asan=strict_string_checks=1:detect_stack_use_after_return=1:intercept_tls_get_addr=0:use_sigaltstack=0
+  export ASAN_OPTIONS="$asan${ASAN_OPTIONS:+:$ASAN_OPTIONS}"
+  local leaks=$root/tests/sanitizers/leak.supp
+  export LSAN_OPTIONS="suppressions=$leaks:print_suppressions=0${LSAN_OPTIONS:+:$LSAN_OPTIONS}"
   export TSAN_OPTIONS="suppressions=$root/tests/sanitizers/thread.supp${TSAN_OPTIONS:+:$TSAN_OPTIONS}"
   export UBSAN_OPTIONS="print_stacktrace=1${UBSAN_OPTIONS:+:$UBSAN_OPTIONS}"
   local status=0
   ctest --test-dir "$root/build/$preset" --output-on-failure --parallel 2 --no-tests=error "$@" || status=$?
   awk '/^\[=+\] Running [0-9]+ tests? from/ { ++suites; tests += $3 } /^\[  SKIPPED \] [0-9]+ test/ { skipped += $4 }
-       END { printf "%d of ctest'"'"'s tests are suites, of %d tests in all; %d were skipped\n", suites, tests, skipped }' \
+       END { printf "%d suites, of %d tests in all; %d were skipped\n", suites, tests, skipped }' \
     "$root/build/$preset/Testing/Temporary/LastTest.log" || true # there is none where ctest only listed
   return "$status"
 }

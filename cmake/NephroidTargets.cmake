@@ -11,8 +11,8 @@ endif()
 
 # Settings for our own code only: third-party code is compiled without them.
 add_library(nephroid_settings INTERFACE)
-# With clang a unit has no -Wshadow: it would warn of what another file of the unit keeps to itself. g++ 14 takes what an empty
-# std::optional or std::any may hold for uninitialized.
+# With clang a unit has no -Wshadow: it would warn of what another file of the unit keeps to itself. g++ 14 takes what
+# an empty std::optional or std::any may hold for uninitialized.
 target_compile_options(nephroid_settings INTERFACE -Wall -Wextra
   $<$<NOT:$<AND:$<CXX_COMPILER_ID:Clang>,$<BOOL:${NEPHROID_UNITY}>>>:-Wshadow> -Wpedantic
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<BOOL:${NEPHROID_WERROR}>:-Werror>)
@@ -23,8 +23,8 @@ if(NEPHROID_SANITIZE)
   add_link_options(-fsanitize=${NEPHROID_SANITIZE})
 endif()
 
-# nephroid_unity(TARGET MOST file...): compiles the files of a folder as one, at most so many in a unit. Most of a file's time goes into
-# templates that its neighbours make as well. -DNEPHROID_UNITY=OFF compiles each by itself.
+# nephroid_unity(TARGET MOST file...): compiles the files of a folder as one, at most so many in a unit. Most of a
+# file's time goes into templates that its neighbours make as well. -DNEPHROID_UNITY=OFF compiles each by itself.
 function(nephroid_unity target most)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${NEPHROID_UNITY} UNITY_BUILD_MODE GROUP)
   foreach(source IN LISTS ARGN)
@@ -41,17 +41,20 @@ endfunction()
 # Reading, saying and drawing: -O1 compiles it in two thirds of the time, and nobody waits for it when it runs.
 set(nephroid_computes_little cli job plan preset report run ui)
 
-# nephroid_library(NAME [FOLDERS folder...] [LIBS lib...]): every .cpp of the current folder, and of these folders in it, as the static library
-# nephroid_NAME.
+# nephroid_library(NAME [FOLDERS folder...] [LIBS lib...]): every .cpp of the current folder, and of these folders in
+# it, as the static library nephroid_NAME. With -DCMAKE_VERIFY_INTERFACE_HEADER_SETS=ON the target
+# all_verify_interface_header_sets compiles each of its headers by itself.
 function(nephroid_library name)
   cmake_parse_arguments(arg "" "" "FOLDERS;LIBS" ${ARGN})
-  set(patterns *.cpp)
-  foreach(folder IN LISTS arg_FOLDERS)
-    list(APPEND patterns ${folder}/*.cpp)
-  endforeach()
-  list(TRANSFORM patterns PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  set(folders . ${arg_FOLDERS})
+  list(TRANSFORM folders PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(TRANSFORM folders APPEND /*.cpp OUTPUT_VARIABLE patterns)
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+  list(TRANSFORM folders APPEND /*.h OUTPUT_VARIABLE patterns)
+  file(GLOB headers CONFIGURE_DEPENDS ${patterns})
+  set(scope INTERFACE)
   if(sources)
+    set(scope PUBLIC)
     add_library(nephroid_${name} STATIC ${sources})
     nephroid_unity(nephroid_${name} 12 ${sources})
     target_link_libraries(nephroid_${name} PUBLIC nephroid_settings ${arg_LIBS})
@@ -62,11 +65,14 @@ function(nephroid_library name)
     add_library(nephroid_${name} INTERFACE)
     target_link_libraries(nephroid_${name} INTERFACE nephroid_settings ${arg_LIBS})
   endif()
+  cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH root) # that includes are named from
+  target_sources(nephroid_${name} ${scope} FILE_SET HEADERS BASE_DIRS ${root} FILES ${headers})
 endfunction()
 
-# nephroid_tests(LIB...): every *_test.cpp of the current folder, as the program GROUP_tests; GROUP is the folder's name. It links LIB and all of
-# app/, so adding a test is adding a file. nephroid_test_program: the program that tests run, if it is not nephroid. ctest runs a suite of
-# GoogleTest at a time, since starting OpenCL takes longer than many a test.
+# nephroid_tests(LIB...): every *_test.cpp of the current folder, as the program GROUP_tests; GROUP is the folder's
+# name. It links LIB and all of app/, so adding a test is adding a file. nephroid_test_program: the program that tests
+# run, if it is not nephroid. ctest runs a suite of GoogleTest at a time, since starting OpenCL takes longer than many a
+# test.
 function(nephroid_tests)
   get_filename_component(group ${CMAKE_CURRENT_SOURCE_DIR} NAME)
   set(program ${group}_tests)
@@ -75,18 +81,25 @@ function(nephroid_tests)
   nephroid_unity(${program} 8 ${sources})
   target_link_libraries(${program} PRIVATE nephroid_settings nephroid_cli ${ARGN} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${program} PRIVATE
-    NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}" NEPHROID_PROGRAM="$<TARGET_FILE:$<IF:$<BOOL:${nephroid_test_program}>,${nephroid_test_program},nephroid>>" $<$<BOOL:${NEPHROID_UI}>:NEPHROID_UI>)
-  target_compile_options(${program} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>) # tests compute little themselves and take long to compile
+    NEPHROID_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    NEPHROID_PROGRAM="$<TARGET_FILE:$<IF:$<BOOL:${nephroid_test_program}>,${nephroid_test_program},nephroid>>"
+    $<$<BOOL:${NEPHROID_UI}>:NEPHROID_UI>)
+  # tests compute little themselves and take long to compile
+  target_compile_options(${program} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>)
   file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/suites.cmake
-    CONTENT "set(group ${group})\nset(program [[$<TARGET_FILE:${program}>]])\ninclude([[${PROJECT_SOURCE_DIR}/cmake/TestSuites.cmake]])\n")
+    CONTENT "set(group ${group})
+set(program [[$<TARGET_FILE:${program}>]])
+include([[${PROJECT_SOURCE_DIR}/cmake/TestSuites.cmake]])
+")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/suites.cmake)
 endfunction()
 
-# nephroid_embed(OUTPUT HEADER SPACE TYPE FUNCTION NAME_PART file...): a .cpp that holds the files as strings (EmbedFiles.cmake).
+# nephroid_embed(OUTPUT HEADER SPACE TYPE FUNCTION NAME_PART file...): a .cpp that holds the files as strings
+# (EmbedFiles.cmake).
 function(nephroid_embed output header space type function name_part)
   set(script ${PROJECT_SOURCE_DIR}/cmake/EmbedFiles.cmake)
   add_custom_command(OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DHEADER=${header} -DSPACE=${space} -DTYPE=${type} -DFUNCTION=${function}
-            -DNAME_PART=${name_part} "-DSOURCES=${ARGN}" -P ${script}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DHEADER=${header} -DSPACE=${space} -DTYPE=${type}
+            -DFUNCTION=${function} -DNAME_PART=${name_part} "-DSOURCES=${ARGN}" -P ${script}
     DEPENDS ${ARGN} ${script} VERBATIM)
 endfunction()

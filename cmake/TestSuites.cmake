@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-# Read by ctest before it starts: every suite of the GoogleTest program `program` is a test GROUP.SUITE, labelled `group`.
+# Read by ctest before it starts: every suite of the GoogleTest program `program` is a test GROUP.SUITE, labelled
+# `group`.
 if(NOT EXISTS ${program})
   add_test(${group}.not_built ${program})
   set_tests_properties(${group}.not_built PROPERTIES LABELS ${group})
   return()
 endif()
-# Seconds that the longest suites take on two cores, with kernels to compile. ctest starts what costs most first, so that none of these is left
-# running alone at the end.
-set(seconds images.All/ShippedPreset 118 hostile.Resumed 105 hostile.Runs 84 environment.EnvironmentRun 76 environment.EnvironmentViewJob 61
+# Seconds that the longest suites take on two cores, with kernels to compile. ctest starts what costs most first, so
+# that none of these is left running alone at the end.
+set(seconds images.All/ShippedPreset 118 hostile.Resumed 105 hostile.Runs 84 environment.EnvironmentRun 76
+  environment.EnvironmentViewJob 61
   hostile.Animations 55 images.Presets/ErrorEstimate 45 inverse.InverseRun 41 hostile.Measured 38 ui.FailingMemory 36
   environment.VolumePhotons 29 environment.EnvironmentView 27)
 execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
@@ -26,7 +28,7 @@ foreach(line IN LISTS lines)
       math(EXPR at "${at} + 1")
       list(GET seconds ${at} cost)
     endif()
-    set_tests_properties(${group}.${suite} PROPERTIES TIMEOUT 600 LABELS ${group} COST ${cost})
+    set_tests_properties(${group}.${suite} PROPERTIES TIMEOUT 1800 LABELS ${group} COST ${cost})
     set(suite "")
   endif()
 endforeach()

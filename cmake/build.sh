@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# What run.sh, test.sh and .ci/run share: saying what happens, timing it by phase, configuring and building. Everything said
-# goes to standard error, so that standard output is the program's alone. The sourcing script sets $root to the project's folder.
+# What run.sh, test.sh and .ci/run share: saying what happens, timing it by phase, configuring and building. Everything
+# said goes to standard error, so that standard output is the program's alone. The sourcing script sets $root to the
+# project's folder.
 
 say() { printf 'nephroid: %s\n' "$*" >&2; }
 
@@ -32,8 +33,8 @@ say_phases() {
   say "minutes:seconds by phase: ${line%, }; in all $(minutes "$SECONDS")"
 }
 
-# configure PRESET [-DNAME=VALUE...]: only where the preset's build folder is not configured with these values yet, or the
-# presets changed; ninja itself looks after changed CMake files.
+# configure PRESET [-DNAME=VALUE...]: only where the preset's build folder is not configured with these values yet, or
+# the presets changed; ninja itself looks after changed CMake files.
 configure() {
   local preset=$1 folder=$root/build/$1 setting
   shift
@@ -52,5 +53,7 @@ configure() {
 build() {
   local folder=$root/build/$1
   shift
-  cmake --build "$folder" ${1:+--target "$@"} | sed -u '/^ninja: /{/no work to do/d;/Entering directory/d};/Re-checking globbed directories/d;/Checking the commit/d' >&2
+  cmake --build "$folder" ${1:+--target "$@"} |
+    sed -u -e '/^ninja: /{/no work to do/d;/Entering directory/d}' \
+      -e '/Re-checking globbed directories/d;/Checking the commit/d' >&2
 }

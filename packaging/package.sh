@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# packaging/package.sh [headless] installs what is missing (Debian 12 or 13), builds, and makes a .deb and an archive in out/package.
-# headless: without the window.
+# packaging/package.sh [headless] installs what is missing (Debian 12 or 13), builds, and makes a .deb and an archive in
+# out/package. headless: without the window.
 set -euo pipefail
 root=$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")
 # shellcheck source=cmake/build.sh

@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "python/bindings.h"
 
+#include <exception>
+
 namespace {
 
 /// A Python exception with the program's own line: BadInput (a ValueError) for what the caller can mend, Error for the rest.

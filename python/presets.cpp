@@ -8,6 +8,8 @@
 
 #include <unistd.h>
 
+#include <tuple>
+
 namespace nephroid::python {
 
 void use_opencl()

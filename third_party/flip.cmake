@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# FLIP, the error metric for pictures, as its authors wrote it: one C++ header in the source archive of flip-evaluator on PyPI.
-# -DNEPHROID_FLIP=DIR or the environment variable of that name gives an unpacked copy, so that several build folders share one.
+# FLIP, the error metric for pictures, as its authors wrote it: one C++ header in the source archive of flip-evaluator
+# on PyPI.
+# -DNEPHROID_FLIP=DIR or the environment variable of that name gives an unpacked copy, so that several build folders
+# share one.
 #   nephroid_flip   the header: what app/measure/flip.cpp links
 nephroid_pip_archive(flip PACKAGE flip-evaluator VERSION 1.7 SIZE "0.2 MB"
   ARCHIVE flip_evaluator-1.7.tar.gz FOLDER flip-evaluator-1.7 HOLDS src/cpp/FLIP.h

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Dear ImGui with its GLFW and OpenGL 3 back ends, from the source archive of imgui-bundle on PyPI (Debian's own Dear ImGui
-# is 1.86, without docking). -DNEPHROID_IMGUI_BUNDLE=DIR or the environment variable of that name gives an unpacked copy instead
-# (pip_fetch.cmake), so that several build folders share one.
+# Dear ImGui with its GLFW and OpenGL 3 back ends, from the source archive of imgui-bundle on PyPI (Debian's own Dear
+# ImGui is 1.86, without docking). -DNEPHROID_IMGUI_BUNDLE=DIR or the environment variable of that name gives an
+# unpacked copy instead (pip_fetch.cmake), so that several build folders share one.
 #   nephroid_imgui          the library itself, no display needed: what panels and their tests link
 #   nephroid_imgui_backend  GLFW and OpenGL: what the window links
 #   nephroid_ui_font        the font of the window, as bytes (third_party/embedded_font.h)
@@ -13,13 +13,15 @@ set(imgui_version 1.93.0)
 find_package(OpenGL QUIET COMPONENTS OpenGL GLX)
 find_package(glfw3 3.3 QUIET)
 if(NOT OpenGL_FOUND OR NOT glfw3_FOUND)
-  message(FATAL_ERROR "The window needs OpenGL and GLFW 3.3; install libglfw3-dev and libgl-dev, or configure with -DNEPHROID_UI=OFF.")
+  message(FATAL_ERROR
+    "The window needs OpenGL and GLFW 3.3; install libglfw3-dev and libgl-dev, or configure with -DNEPHROID_UI=OFF.")
 endif()
 
 nephroid_pip_archive(imgui_bundle PACKAGE imgui-bundle VERSION ${imgui_version} SIZE "54 MB"
   ARCHIVE imgui_bundle-${imgui_version}.tar.gz FOLDER imgui_bundle-${imgui_version}
   SHA256 10ad1dab8258a6787b4f07bb926b08d0efc648a7906242568c8dd778c5e719bf
-  HOLDS external/imgui/imgui/imgui.h OVERRIDE NEPHROID_IMGUI_BUNDLE OR_ELSE ", or build without the window: -DNEPHROID_UI=OFF")
+  HOLDS external/imgui/imgui/imgui.h OVERRIDE NEPHROID_IMGUI_BUNDLE OR_ELSE
+  ", or build without the window: -DNEPHROID_UI=OFF")
 set(imgui ${imgui_bundle}/external/imgui/imgui)
 file(STRINGS ${imgui}/imgui.h imgui_version_line REGEX "define IMGUI_VERSION +\"")
 if(NOT imgui_version_line MATCHES "\"${imgui_version}\"")
@@ -28,10 +30,12 @@ endif()
 
 # SYSTEM includes and no nephroid_settings: third-party code is compiled without our warnings.
 add_library(nephroid_imgui STATIC
-  ${imgui}/imgui.cpp ${imgui}/imgui_draw.cpp ${imgui}/imgui_stacklayout.cpp ${imgui}/imgui_tables.cpp ${imgui}/imgui_widgets.cpp)
+  ${imgui}/imgui.cpp ${imgui}/imgui_draw.cpp ${imgui}/imgui_stacklayout.cpp ${imgui}/imgui_tables.cpp
+  ${imgui}/imgui_widgets.cpp)
 target_include_directories(nephroid_imgui SYSTEM PUBLIC ${imgui})
 # The demo is half of the library's build time, and the debug windows need it.
-target_compile_definitions(nephroid_imgui PUBLIC IMGUI_DISABLE_DEMO_WINDOWS IMGUI_DISABLE_DEBUG_TOOLS IMGUI_DISABLE_OBSOLETE_FUNCTIONS)
+target_compile_definitions(nephroid_imgui PUBLIC IMGUI_DISABLE_DEMO_WINDOWS IMGUI_DISABLE_DEBUG_TOOLS
+  IMGUI_DISABLE_OBSOLETE_FUNCTIONS)
 
 # Our plots are of doubles; the plotters of nine other number types would be most of the build time.
 set(implot ${imgui_bundle}/external/implot/implot)

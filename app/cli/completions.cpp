@@ -16,9 +16,25 @@ namespace {
 
 enum class Kind { nothing, files, folders, presets, devices, words };
 
+/// How each shell names a kind of values; {} are the words.
+struct ShellForms {
+  const char *bash, *zsh, *fish;
+};
+constexpr ShellForms shell_forms[] = {{"kind=nothing", " ", " -f"},
+                                      {"kind=files", "_files", " -F"},
+                                      {"kind=folders", "_files -/", " -f -a '(__fish_complete_directories)'"},
+                                      {"kind=presets", "_nephroid_presets", " -F -k -a '(__nephroid_list presets)'"},
+                                      {"kind=devices", "_nephroid_devices", " -f -k -a '(__nephroid_list devices)'"},
+                                      {"kind=words words='{}'", "({})", " -f -a '{}'"}};
+
 struct Values {
   Kind kind = Kind::nothing;
   std::string words = {}; ///< with spaces between them
+
+  std::string to(const char* ShellForms::*shell) const
+  {
+    return fmt::format(fmt::runtime(shell_forms[static_cast<int>(kind)].*shell), words);
+  }
 };
 
 std::string replaced(std::string text, std::string_view from, std::string_view to)
@@ -89,13 +105,6 @@ std::string verb_list(const CLI::App& program)
 
 // ---------------------------------------------------------------- bash
 
-std::string bash_values(const Values& values)
-{
-  constexpr const char* kinds[] = {"nothing", "files", "folders", "presets", "devices", "words"};
-  return fmt::format("kind={}{}", kinds[static_cast<int>(values.kind)],
-                     values.words.empty() ? "" : fmt::format(" words='{}'", values.words));
-}
-
 void bash_case(const CLI::App& app)
 {
   std::string all;
@@ -105,9 +114,9 @@ void bash_case(const CLI::App& app)
       all += (all.empty() ? "" : " ") + name;
       pattern += (pattern.empty() ? "" : " | ") + name;
     }
-    if (!is_flag(*option)) fmt::print("        {}) {}; return ;;\n", pattern, bash_values(values_of(*option)));
+    if (!is_flag(*option)) fmt::print("        {}) {}; return ;;\n", pattern, values_of(*option).to(&ShellForms::bash));
   }
-  fmt::print("      esac\n      options='{}' {} ;;\n", all, bash_values(argument_of(app)));
+  fmt::print("      esac\n      options='{}' {} ;;\n", all, argument_of(app).to(&ShellForms::bash));
 }
 
 void print_bash(const CLI::App& program)
@@ -149,25 +158,6 @@ complete -o default -o bashdefault -F _nephroid nephroid
 
 // ---------------------------------------------------------------- zsh
 
-std::string zsh_action(const Values& values)
-{
-  switch (values.kind) {
-  case Kind::files:
-    return "_files";
-  case Kind::folders:
-    return "_files -/";
-  case Kind::presets:
-    return "_nephroid_presets";
-  case Kind::devices:
-    return "_nephroid_devices";
-  case Kind::words:
-    return "(" + values.words + ")";
-  case Kind::nothing:
-    break;
-  }
-  return " ";
-}
-
 void zsh_arguments(const CLI::App& app)
 {
   fmt::print("_arguments -s");
@@ -175,11 +165,12 @@ void zsh_arguments(const CLI::App& app)
     const std::string value = is_flag(*option)
                                   ? ""
                                   : fmt::format(":{}:{}", in_spec(option->get_lnames().empty() ? "value" : option->get_lnames().front()),
-                                                zsh_action(values_of(*option)));
+                                                values_of(*option).to(&ShellForms::zsh));
     for (const std::string& name : names_of(*option))
       fmt::print(" \\\n        '*{}[{}]{}'", name, in_spec(option->get_description()), value);
   }
-  if (const Values values = argument_of(app); values.kind != Kind::nothing) fmt::print(" \\\n        '*:argument:{}'", zsh_action(values));
+  if (const Values values = argument_of(app); values.kind != Kind::nothing)
+    fmt::print(" \\\n        '*:argument:{}'", values.to(&ShellForms::zsh));
   fmt::print(" ;;\n");
 }
 
@@ -221,25 +212,6 @@ _nephroid() {
 
 // ---------------------------------------------------------------- fish
 
-std::string fish_values(const Values& values)
-{
-  switch (values.kind) {
-  case Kind::files:
-    return " -F";
-  case Kind::folders:
-    return " -f -a '(__fish_complete_directories)'";
-  case Kind::presets:
-    return " -F -k -a '(__nephroid_list presets)'";
-  case Kind::devices:
-    return " -f -k -a '(__nephroid_list devices)'";
-  case Kind::words:
-    return fmt::format(" -f -a '{}'", values.words);
-  case Kind::nothing:
-    break;
-  }
-  return " -f";
-}
-
 void fish_lines(const CLI::App& app, const std::string& when)
 {
   const std::string start = fmt::format("complete -c nephroid -n '{}'", when);
@@ -247,10 +219,10 @@ void fish_lines(const CLI::App& app, const std::string& when)
     std::string names;
     for (const std::string& name : option->get_snames()) names += " -s " + name;
     for (const std::string& name : option->get_lnames()) names += " -l " + name;
-    fmt::print("{}{}{} -d '{}'\n", start, names, is_flag(*option) ? "" : " -r" + fish_values(values_of(*option)),
+    fmt::print("{}{}{} -d '{}'\n", start, names, is_flag(*option) ? "" : " -r" + values_of(*option).to(&ShellForms::fish),
                plain(option->get_description()));
   }
-  fmt::print("{}{}\n", start, fish_values(argument_of(app)));
+  fmt::print("{}{}\n", start, argument_of(app).to(&ShellForms::fish));
 }
 
 void print_fish(const CLI::App& program)

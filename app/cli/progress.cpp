@@ -101,16 +101,16 @@ void LiveLine::clear()
   std::fflush(stderr);
 }
 
-ProgressDisplay::ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start)
-    : style_(style), subject_(std::move(subject)), start_(start), next_(Clock::now() + rhythm(style))
+ProgressDisplay::ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start, Clock::time_point time)
+    : style_(style), subject_(std::move(subject)), start_(start), next_(time + rhythm(style))
 {
 }
 
-void ProgressDisplay::update(const job::Progress& now)
+void ProgressDisplay::update(const job::Progress& now, Clock::time_point time)
 {
-  if (Clock::now() < next_) return;
+  if (time < next_) return;
   show(now);
-  next_ = Clock::now() + rhythm(style_);
+  next_ = time + rhythm(style_);
 }
 
 void ProgressDisplay::finish(const job::Progress& now)

@@ -41,8 +41,9 @@ private:
 /// Shows a run's progress at the rhythm of its style. Call update as often as you like.
 class ProgressDisplay {
 public:
-  ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start);
-  void update(const job::Progress& now);
+  using Clock = std::chrono::steady_clock;
+  ProgressDisplay(ProgressStyle style, ProgressSubject subject, const job::Progress& start, Clock::time_point time = Clock::now());
+  void update(const job::Progress& now, Clock::time_point time = Clock::now());
   /// The last state at once, whatever the rhythm.
   void finish(const job::Progress& now);
   /// Takes the live line away, so that something else can be printed.
@@ -51,7 +52,6 @@ public:
 private:
   void show(const job::Progress& now);
 
-  using Clock = std::chrono::steady_clock;
   ProgressStyle style_;
   ProgressSubject subject_;
   job::Progress start_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/counted.h"
 #include "base/json_output.h"
+#include "base/numbers.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
 #include "preset/origins.h"

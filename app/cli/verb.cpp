@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/verb.h"
 
+#include "base/numbers.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <concepts>
 #include <filesystem>
+#include <type_traits>
 #include <utility>
 
 namespace nephroid::cli {

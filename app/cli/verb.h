@@ -2,10 +2,6 @@
 // A verb of the command line and its options. CLI11, which parses them, is known to verb.cpp, command_line.cpp, manual.cpp and
 // completions.cpp only: each file that includes it takes seconds more to compile.
 #pragma once
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -103,26 +99,5 @@ void add_version(CLI::App& program, Session& session);
 
 /// "0  NAME  (cpu, 2 compute units, 8.1 GB, PLATFORM DRIVER, no fp64)"
 std::string device_line(const compute::DeviceInfo& device);
-
-/// A number as people type it: 3, +3, .02, 5., 1e5. Nothing where it is none or, of whole numbers, is not whole or not exact.
-template <class Number>
-std::optional<Number> typed_number(std::string_view text)
-{
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  const auto read = [text](auto& value) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size();
-  };
-  Number number{};
-  if (read(number)) return number;
-  if constexpr (std::integral<Number>) {
-    constexpr double exact = 1ll << 53;
-    double value = 0;
-    if (read(value) && std::abs(value) <= std::min(exact, static_cast<double>(std::numeric_limits<Number>::max())) &&
-        std::trunc(value) == value && (value >= 0 || std::signed_integral<Number>))
-      return static_cast<Number>(value);
-  }
-  return std::nullopt;
-}
 
 } // namespace nephroid::cli

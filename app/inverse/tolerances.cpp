@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <random>
 
 namespace nephroid::inverse {
 namespace {

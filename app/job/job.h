@@ -6,6 +6,7 @@
 #include "preset/preset.h"
 
 #include <functional>
+#include <limits>
 
 namespace nephroid::job {
 

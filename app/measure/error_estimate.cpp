@@ -17,6 +17,7 @@
 #include "base/summed_area.h"
 #include "optics/colour.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::measure {

@@ -4,11 +4,11 @@
 
 #include "base/counted.h"
 #include "base/files.h"
+#include "base/numbers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <system_error>
@@ -45,11 +45,9 @@ std::string quoted(std::string_view cell)
 template <class Number>
 Number number(std::string_view cell, std::string_view column, const Place& place)
 {
-  Number value{};
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || end != cell.data() + cell.size())
-    throw bad_input(place, fmt::format("{} {} is no number", column, quoted(cell)));
-  return value;
+  const auto value = number_in<Number>(cell);
+  if (!value) throw bad_input(place, fmt::format("{} {} is no number", column, quoted(cell)));
+  return *value;
 }
 
 /// A time in seconds: finite, not negative.

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/nearest.h"
+#include "base/numbers.h"
 #include "optics/dispersion.h"
 #include "optics/tables.h"
 
@@ -12,7 +13,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -44,12 +44,10 @@ std::vector<std::string_view> words(std::string_view text)
 
 double number(std::string_view word, const Place& where)
 {
-  const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-  double value = 0;
-  const auto [end, code] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (code != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+  const auto value = typed_number<double>(word);
+  if (!value || !std::isfinite(*value))
     throw bad_input(where, in_quotes(word) + " is no number", "expected a finite number such as 1.5168 or 2.86E-06");
-  return value;
+  return *value;
 }
 
 std::vector<double> numbers(std::string_view text, const Place& where)

@@ -2,11 +2,11 @@
 #include "optics/tables.h"
 
 #include "base/error.h"
+#include "base/numbers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace nephroid::optics {
@@ -25,11 +25,9 @@ std::vector<std::string_view> split(std::string_view text, char separator)
 
 double number(std::string_view text, std::string_view table)
 {
-  double value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc{} || end != text.data() + text.size())
-    throw failed(std::string(table), "the built-in table has a broken number", {}, "repair the file in app/optics/data");
-  return value;
+  const auto value = number_in<double>(text);
+  if (!value) throw failed(std::string(table), "the built-in table has a broken number", {}, "repair the file in app/optics/data");
+  return *value;
 }
 
 /// Index i of the interval rows[i]..rows[i + 1] that holds nm; rows has at least two entries and nm lies between the ends.

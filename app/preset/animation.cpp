@@ -4,6 +4,7 @@
 
 #include "base/counted.h"
 #include "base/monotone_cubic.h"
+#include "base/numbers.h"
 #include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/walks.h"
@@ -41,9 +42,8 @@ const Json* find(const Json& json, const Path& path)
   for (const std::string& key : path) {
     if (at->is_object() && at->contains(key))
       at = &(*at)[key];
-    else if (const bool digits = at->is_array() && key.size() < 9 && key.find_first_not_of("0123456789") == std::string::npos;
-             digits && static_cast<std::size_t>(std::stoi(key)) < at->size())
-      at = &(*at)[static_cast<std::size_t>(std::stoi(key))];
+    else if (const auto index = number_in<std::size_t>(key); at->is_array() && index && *index < at->size())
+      at = &(*at)[*index];
     else
       return nullptr;
   }

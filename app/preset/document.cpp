@@ -2,13 +2,13 @@
 #include "preset/document.h"
 
 #include "base/error.h"
+#include "base/numbers.h"
 #include "preset/change_engine.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <set>
 
 namespace nephroid::preset {
@@ -30,9 +30,7 @@ std::string dotted(const std::vector<std::string>& path, std::size_t count)
 /// The item of a list that a path's key names.
 Json& item(Json& list, const std::string& key, const std::string& path, const Origin& origin)
 {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), index);
-  if (error == std::errc() && end == key.data() + key.size() && index < list.size()) return list[index];
+  if (const auto index = number_in<std::size_t>(key); index && *index < list.size()) return list[*index];
   const std::string range = list.empty() ? "it is empty" : fmt::format("its items are 0 to {}", list.size() - 1);
   throw bad_input(origin.place, fmt::format("{} is a list and has no item {}", in_quotes(path), in_quotes(key)), range);
 }

@@ -3,6 +3,7 @@
 
 #include "preset/settings_type.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace nephroid::preset {

@@ -4,6 +4,7 @@
 
 #include "base/files.h"
 #include "base/json_output.h"
+#include "base/numbers.h"
 #include "measure/difference.h"
 #include "measure/run_files.h"
 #include "report/data.h"
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <set>
@@ -90,11 +90,9 @@ Json read_curve(const fs::path& file)
     Json row = Json::array();
     std::istringstream cells(line);
     for (std::string cell; std::getline(cells, cell, ',');) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      const bool is_number = error == std::errc() && end == cell.data() + cell.size();
-      if (number > 1 && !is_number) throw bad_input(place, "a cell is no number", "expected a table of numbers");
-      row.push_back(number == 1 ? Json(cell) : std::isfinite(value) ? Json(value) : Json());
+      const auto value = number_in<double>(cell);
+      if (number > 1 && !value) throw bad_input(place, "a cell is no number", "expected a table of numbers");
+      row.push_back(number == 1 ? Json(cell) : std::isfinite(*value) ? Json(*value) : Json());
     }
     if (number > 1 && row.size() != curve["columns"].size())
       throw bad_input(place, fmt::format("the row has {} cells", row.size()), fmt::format("expected {}", curve["columns"].size()));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/files.h"
+#include "base/numbers.h"
 #include "image/image.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
@@ -29,12 +29,7 @@ constexpr std::array kinds{".png", ".exr"};
 constexpr const char* of_all_frames[] = {"frames.csv", "animation.mp4"};
 
 /// The number in "0003", -1 where the text is no frame's number.
-int frame_number(std::string_view text)
-{
-  int number = -1;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return text.size() == 4 && error == std::errc() && end == text.data() + text.size() ? number : -1;
-}
+int frame_number(std::string_view text) { return text.size() == 4 ? number_in<int>(text).value_or(-1) : -1; }
 
 /// Of "frame_0003.png"; -1 of another file.
 int frame_of(const fs::path& file)

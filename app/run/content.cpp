@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {

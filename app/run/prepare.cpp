@@ -3,12 +3,12 @@
 #include "run/run.h"
 
 #include "base/files.h"
+#include "base/numbers.h"
 #include "engine/engine.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -101,9 +101,8 @@ std::optional<std::uint64_t> available_memory_bytes()
   const std::size_t at = text.find(key);
   if (at == std::string::npos) return std::nullopt;
   const std::size_t digits = std::min(text.find_first_not_of(' ', at + key.size()), text.size());
-  std::uint64_t kib = 0;
-  const auto [end, error] = std::from_chars(text.data() + digits, text.data() + text.size(), kib);
-  return error == std::errc() ? std::optional(kib * 1024) : std::nullopt;
+  const auto kib = number_in<std::uint64_t>(std::string_view(text).substr(digits, text.find(' ', digits) - digits));
+  return kib ? std::optional(*kib * 1024) : std::nullopt;
 }
 
 void require_memory(const plan::Plan& plan, int width, int height, const compute::DeviceInfo& device,

@@ -15,6 +15,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace nephroid::run {
 namespace fs = std::filesystem;
 namespace {

@@ -3,12 +3,12 @@
 #include "scene/mesh_parts.h"
 
 #include "base/error.h"
+#include "base/numbers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 
 namespace nephroid::scene {
 namespace {
@@ -87,13 +87,12 @@ PlyHeader read_ply_header(std::string_view bytes, const Place& where)
                           : throw bad_input(where, fmt::format("the PLY header has the unknown format '{}'", printable(format)),
                                             "ascii, binary_little_endian or binary_big_endian");
     } else if (word == "element") {
-      Element element{std::string(next_token(line)), 0, {}};
-      const std::string_view count = next_token(line);
-      const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
-      if (error != std::errc() || stop != count.data() + count.size())
-        throw bad_input(where, fmt::format("the PLY header declares '{}' elements '{}'", printable(count), printable(element.name)),
+      const std::string_view name = next_token(line), count = next_token(line);
+      const auto number = number_in<std::uint64_t>(count);
+      if (!number)
+        throw bad_input(where, fmt::format("the PLY header declares '{}' elements '{}'", printable(count), printable(name)),
                         "a number from 0 to 2^64 - 1");
-      header.elements.push_back(std::move(element));
+      header.elements.push_back({std::string(name), *number, {}});
     } else if (word == "property") {
       if (header.elements.empty()) throw bad_input(where, "the PLY header has a property before any element");
       read_property(line, header.elements.back(), where);
@@ -102,22 +101,15 @@ PlyHeader read_ply_header(std::string_view bytes, const Place& where)
   throw bad_input(where, "the PLY header has no end_header", "a whole file", "write it again");
 }
 
-/// A number of list items as a text file has it; ~0 where it is none.
-std::uint64_t parse_count(std::string_view token)
-{
-  std::uint64_t value = 0;
-  const auto [stop, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-  return error == std::errc() && stop == token.data() + token.size() ? value : ~std::uint64_t{0};
-}
-
 /// Walks over one text element; false where the text ends first or a list has no proper length.
 bool skip_text(std::string_view& text, const Element& element)
 {
   for (const Property& property : element.properties) {
     std::uint64_t values = 1;
     if (property.list) {
-      values = parse_count(next_token(text));
-      if (values > text.size()) return false;
+      const auto count = number_in<std::uint64_t>(next_token(text));
+      if (!count || *count > text.size()) return false;
+      values = *count;
     }
     for (std::uint64_t i = 0; i < values; ++i)
       if (next_token(text).empty()) return false;

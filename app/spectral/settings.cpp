@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "preset/settings_type.h"
+#include "spectral/settings.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of kernels/*.h over arrays, one item each: how `nephroid check` (app/check) and tests hold them against the host.
-// Nothing is computed here that the headers do not compute, but for built_ins, which asks the device's own functions.
+// The functions of kernels/*.h over arrays, one item each: how `nephroid check` (app/check) and tests hold them against
+// the host. Nothing is computed here that the headers do not compute, but for built_ins, which asks the device's own
+// functions.
 #include "kernels/tracing/random.h"
 #include "kernels/tracing/fresnel.h"
 #include "kernels/tracing/media.h"
@@ -8,7 +9,10 @@
 #include "kernels/tracing/emission.h"
 
 // The order of app/check/arithmetic.cpp.
-enum { FUNCTION_EXP, FUNCTION_LOG, FUNCTION_SQRT, FUNCTION_RSQRT, FUNCTION_SIN, FUNCTION_COS, FUNCTION_DIVIDE, FUNCTION_FMA, FUNCTION_DIFFERENCE };
+enum {
+  FUNCTION_EXP, FUNCTION_LOG, FUNCTION_SQRT, FUNCTION_RSQRT, FUNCTION_SIN, FUNCTION_COS, FUNCTION_DIVIDE, FUNCTION_FMA,
+  FUNCTION_DIFFERENCE
+};
 
 // x y - z w as four separate roundings allow: what the signs of bvh.h's edge functions rest on.
 static inline float difference_of_products(float4 a)
@@ -68,7 +72,8 @@ kernel void interfaces(global const float4* in, global float4* out, uint count)
   out[i] = (float4)(cos_t, r, 0.0f, 0.0f);
 }
 
-// in: a direction that falls on the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one and its cosine.
+// in: a direction that falls on the plane z = 0, and n_i / n_t. out: the reflected one; the refracted one and its
+// cosine.
 kernel void directions(global const float4* in, global float4* out, uint count)
 {
   const uint i = get_global_id(0);
@@ -79,9 +84,10 @@ kernel void directions(global const float4* in, global float4* out, uint count)
   out[2 * i + 1] = (float4)(cos_t < 0.0f ? (float3)(0.0f) : refract_through(d, n, cos_i, cos_t, in[i].w), cos_t);
 }
 
-// One walk an item through nested objects. A step k >= 0 enters object k, ~k leaves it. After each: the medium, -1 air, or -2 where
-// the list of media is full.
-kernel void media_walks(global const DeviceObject* objects, global const int* steps, global int* mediums, int steps_each, uint count)
+// One walk an item through nested objects. A step k >= 0 enters object k, ~k leaves it. After each: the medium, -1 air,
+// or -2 where the list of media is full.
+kernel void media_walks(global const DeviceObject* objects, global const int* steps, global int* mediums,
+                        int steps_each, uint count)
 {
   const uint walk = get_global_id(0);
   if (walk >= count) return;
@@ -98,8 +104,9 @@ kernel void media_walks(global const DeviceObject* objects, global const int* st
 }
 
 // in: light, cluster, reflector, attenuator. lengths: what was crossed of the attenuator.
-kernel void attenuated(global const int* first, global const int* wavelengths, global const float* coefficient, global const float4* light_xyz,
-                       global const float* reflectance, global const int4* in, global const float* lengths, global float4* out, uint count)
+kernel void attenuated(global const int* first, global const int* wavelengths, global const float* coefficient,
+                       global const float4* light_xyz, global const float* reflectance, global const int4* in,
+                       global const float* lengths, global float4* out, uint count)
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
@@ -110,13 +117,14 @@ kernel void attenuated(global const int* first, global const int* wavelengths, g
 }
 
 // Photon i of a light: origin and watts, then direction.
-kernel void emissions(global const DeviceLight* lights, int light, global const DeviceTarget* targets, DeviceScene scene, uint2 seed,
-                      global float4* out, uint count)
+kernel void emissions(global const DeviceLight* lights, int light, global const DeviceTarget* targets,
+                      DeviceScene scene, uint2 seed, global float4* out, uint count)
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
   const DeviceLight from = lights[light];
-  const Emission e = emit(&from, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS), random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy);
+  const Emission e = emit(&from, targets, &scene, random4(seed, 0u, i, 0u, STREAM_PHOTONS),
+                          random4(seed, 0u, i, 1u, STREAM_PHOTONS).xy);
   out[2 * i] = (float4)(e.origin, e.watts);
   out[2 * i + 1] = (float4)(e.direction, 0.0f);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Algorithm 3.1 of the thesis: photons of parallel light from one direction meet an object of glass or a mirror, and mark each sphere about
-// its middle that they cross afterwards, outside of it. Light that never met the object marks nothing: it is no caustic.
+// Algorithm 3.1 of the thesis: photons of parallel light from one direction meet an object of glass or a mirror, and
+// mark each sphere about its middle that they cross afterwards, outside of it. Light that never met the object marks
+// nothing: it is no caustic.
 #include "kernels/environment/sphere_map.h"
 #include "kernels/tracing/emission.h"
 #include "kernels/tracing/low_discrepancy.h"
@@ -16,7 +17,8 @@
 #endif
 
 typedef struct {
-  // [sphere][texel][channel], and after a texel's channels power times the way it goes, in parts of STEEPEST: what a photon adds to lies together.
+  // [sphere][texel][channel], and after a texel's channels power times the way it goes, in parts of STEEPEST: what a
+  // photon adds to lies together.
   volatile __global long* film;
   __global const float* radii; // ascending
   int count, side;              // of the spheres; of a map
@@ -28,13 +30,15 @@ typedef struct {
   float power;
 } Carried;
 
-// Power through a sphere at a slant is more light across its way than power straight through: by 1 / cosine, which is held to this.
+// Power through a sphere at a slant is more light across its way than power straight through: by 1 / cosine, which is
+// held to this.
 #define STEEPEST 8.0f
 
 // way: unit.
 static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, float3 way, const Carried* carried)
 {
-  const size_t texel = (size_t)sphere * (size_t)(spheres->side * spheres->side) + (size_t)sphere_texel(place, spheres->side);
+  const size_t texel =
+      (size_t)sphere * (size_t)(spheres->side * spheres->side) + (size_t)sphere_texel(place, spheres->side);
   volatile __global long* const sums = spheres->film + (NEPHROID_CHANNELS + 3) * texel;
   for (int c = 0; c < NEPHROID_CHANNELS; ++c) add_exactly(sums + c, carried->channels[c]);
   const float cosine = fabs(dot(place, way)) / spheres->radii[sphere];
@@ -44,9 +48,10 @@ static inline void mark_texel(const Spheres* spheres, int sphere, float3 place, 
   add_exactly(sums + NEPHROID_CHANNELS + 2, convert_long_rte(across.z));
 }
 
-// Marks each crossing of the way from `origin` up to `distance` along the unit vector `direction`. The way is nearest to the middle at
-// `foot`, and a sphere of radius r is crossed sqrt(r^2 - foot^2) before and after that.
-static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 direction, float distance, const Carried* carried)
+// Marks each crossing of the way from `origin` up to `distance` along the unit vector `direction`. The way is nearest
+// to the middle at `foot`, and a sphere of radius r is crossed sqrt(r^2 - foot^2) before and after that.
+static inline void mark_spheres(const Spheres* spheres, float3 origin, float3 direction, float distance,
+                                const Carried* carried)
 {
   const float to_foot = -dot(origin, direction);
   const float3 foot = origin + to_foot * direction;
@@ -83,11 +88,13 @@ static inline Carried carried_by(__global const float4* light_rgb, const Band* b
   return carried;
 }
 
-// Photons first .. first + count - 1 of a direction, whose number is its stream of random numbers. scale: quanta a watt. energy counts the
-// power, not its colour.
-__kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb, __global const float* radii,
-                   volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                   int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count, float scale)
+// Photons first .. first + count - 1 of a direction, whose number is its stream of random numbers. scale: quanta a
+// watt. energy counts the power, not its colour.
+__kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const float4* light_rgb,
+                   __global const float* radii, volatile __global long* film,
+                   volatile __global long* energy, // [OUTCOME_COUNT]
+                   int sphere_count, int side, float4 direction, uint number, uint2 seed, uint first, uint count,
+                   float scale)
 {
   const World world = WORLD;
   const Spheres spheres = {film, radii, sphere_count, side};
@@ -99,17 +106,20 @@ __kernel void bake(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __glob
     if (item >= count) break;
     const uint photon = first + item;
     const float4 start = sobol4(seed, (uint3)(number, 0u, 0u), 0u, photon);
-    const Emission emission = emit_directional(&light, targets + light.first_target, &scene, start.zxyw); // x and y are the best pair
+    const Emission emission =
+        emit_directional(&light, targets + light.first_target, &scene, start.zxyw); // x and y are the best pair
     const float power = emission.watts * scale;
     const Band band = choose_band(&world, 0, 0, start.w);
-    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
+                 light.inside,    no_losses(),        emission.behind};
     bool met = false;
     int outcome = OUTCOME_LOST;
     SET_ASIDE float4 choices = (float4)(0.0f);
     for (int surface_number = 0; surface_number <= scene.max_surfaces; ++surface_number) {
       const Hit hit = next_hit(&world, &path);
       const bool leaves = hit.primitive == NEPHROID_NO_PRIMITIVE;
-      // What meets nothing more is outside, also of a mesh with a hole that it came in by its surface and out by the hole.
+      // What meets nothing more is outside, also of a mesh with a hole that it came in by its surface and out by the
+      // hole.
       if (met && (leaves || is_in_air(&path.media))) {
         const Carried carried = carried_by(light_rgb, &band, power * left_of(&world, &path, &band));
         mark_spheres(&spheres, path.origin, path.direction, leaves ? INFINITY : hit.t, &carried);

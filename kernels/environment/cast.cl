@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics on what stands around the object (thesis 3.2): E r^2 of all lights in texels of the cube of receivers, by looking up the spheres
-// of every light there. And light in the air, by adding all those up into one set of spheres first (Algorithm 3.5).
+// Caustics on what stands around the object (thesis 3.2): E r^2 of all lights in texels of the cube of receivers, by
+// looking up the spheres of every light there. And light in the air, by adding all those up into one set of spheres
+// first (Algorithm 3.5).
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 
 // caustics: [texel][3], linear sRGB: E r^2 on the receivers. normals: [texel], unit, on the object's side.
-__kernel void cast(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
-                   __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, __global const uint* list, uint first, uint count,
-                   int size, __global const float* distances, __global const float4* normals, __global float* caustics)
+__kernel void cast(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of,
+                   __global const float* radii, __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres,
+                   __global const uint* list, uint first, uint count, int size, __global const float* distances,
+                   __global const float4* normals, __global float* caustics)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
@@ -17,17 +19,19 @@ __kernel void cast(__global const ushort* stored, __global const ushort* ways, _
   if (distance < INFINITY) {
     const Maps maps = {stored, ways, way_of};
     const float beyond = fmax(1.0f - radii[spheres.count - 1] / distance, 0.0f);
-    caustic = held(radii, distance) * caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size),
-                                                      shell_at(radii, spheres.count, distance), beyond, normals[texel].xyz);
+    caustic =
+        held(radii, distance) * caustic_of_sets(&maps, &spheres, sets, eights, cube_texel_direction(texel, size),
+                                                shell_at(radii, spheres.count, distance), beyond, normals[texel].xyz);
   }
   vstore3(caustic, (size_t)texel, caustics);
 }
 
-// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Of all texels of all spheres in their stored
-// form, whose maps have side x side texels. object_x, y, z: the object's axes in the scene.
-__kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of, __global const float* radii,
-                          __global const DeviceEightSets* sets, int eights, DeviceSpheres spheres, float4 object_x, float4 object_y,
-                          float4 object_z, int side, uint count, __global float* air)
+// Light in the air, all sets in one (Algorithm 3.5): compiled_air in spheres.h. Of all texels of all spheres in their
+// stored form, whose maps have side x side texels. object_x, y, z: the object's axes in the scene.
+__kernel void compile_air(__global const ushort* stored, __global const ushort* ways, __global const float4* way_of,
+                          __global const float* radii, __global const DeviceEightSets* sets, int eights,
+                          DeviceSpheres spheres, float4 object_x, float4 object_y, float4 object_z, int side,
+                          uint count, __global float* air)
 {
   const uint item = (uint)get_global_id(0);
   if (item >= count) return;

@@ -55,11 +55,13 @@ static inline float3 cube_texel_direction(uint texel, int size)
 static inline uint cube_texel(float3 direction, int size)
 {
   const CubePoint p = cube_point(direction);
-  const int x = clamp((int)(0.5f * (p.s + 1.0f) * (float)size), 0, size - 1), y = clamp((int)(0.5f * (p.t + 1.0f) * (float)size), 0, size - 1);
+  const int x = clamp((int)(0.5f * (p.s + 1.0f) * (float)size), 0, size - 1),
+            y = clamp((int)(0.5f * (p.t + 1.0f) * (float)size), 0, size - 1);
   return (uint)((p.face * size + y) * size + x);
 }
 
-// The four texels about a direction with their bilinear weights. Beyond the border of a face its outermost texels go on.
+// The four texels about a direction with their bilinear weights. Beyond the border of a face its outermost texels go
+// on.
 typedef struct {
   uint texels[4];
   float weights[4];
@@ -69,7 +71,8 @@ static inline CubeTexels cube_texels(float3 direction, int size)
 {
   const CubePoint p = cube_point(direction);
   const float last = (float)(size - 1);
-  const float x = clamp(0.5f * (p.s + 1.0f) * (float)size - 0.5f, 0.0f, last), y = clamp(0.5f * (p.t + 1.0f) * (float)size - 0.5f, 0.0f, last);
+  const float x = clamp(0.5f * (p.s + 1.0f) * (float)size - 0.5f, 0.0f, last),
+              y = clamp(0.5f * (p.t + 1.0f) * (float)size - 0.5f, 0.0f, last);
   const int x0 = min((int)x, size - 2), y0 = min((int)y, size - 2);
   const float u = x - (float)x0, v = y - (float)y0;
   const uint first = (uint)((p.face * size + y0) * size + x0);

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands around the caustic object: how far it is from the object's middle to the first surface, in the texels of a cube that some
-// path from the eye needs; and that surface's unit normal, on the side that the middle is on. The tree is that of the scene without the object.
+// What stands around the caustic object: how far it is from the object's middle to the first surface, in the texels of
+// a cube that some path from the eye needs; and that surface's unit normal, on the side that the middle is on. The tree
+// is that of the scene without the object.
 #include "kernels/environment/cube.h"
 #include "kernels/tracing/world.h"
 
 // list: texels. distances: [texel]: INFINITY where there is nothing.
-__kernel void receivers(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle, __global float* distances,
-                        __global float4* facing)
+__kernel void receivers(WORLD_ARGUMENTS, __global const uint* list, uint first, uint count, int size, float4 middle,
+                        __global float* distances, __global float4* facing)
 {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
   const uint texel = list[first + index];
   const float3 direction = cube_texel_direction(texel, size);
-  const Hit hit = closest_hit(world.geometry.nodes, world.geometry.blocks, world.geometry.root, middle.xyz, direction, 0.0f, INFINITY,
-                              NEPHROID_NO_PRIMITIVE);
+  const Hit hit = closest_hit(world.geometry.nodes, world.geometry.blocks, world.geometry.root, middle.xyz, direction,
+                              0.0f, INFINITY, NEPHROID_NO_PRIMITIVE);
   distances[texel] = hit.primitive == NEPHROID_NO_PRIMITIVE ? INFINITY : hit.t;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
   const float3 normal = surface_at(&world.geometry, hit).geometric;

@@ -23,8 +23,8 @@ namespace nephroid::shared {
 #define ENDS_OF_PIXEL (NEPHROID_JITTER ? 4 : 2)
 #endif
 
-// Eight sets of spheres, each of them what one light makes by one baked direction, turned so that it fits the light. They are looked up side by
-// side, as a CPU's vectors do best. What is left over of the last eight has no flux.
+// Eight sets of spheres, each of them what one light makes by one baked direction, turned so that it fits the light.
+// They are looked up side by side, as a CPU's vectors do best. What is left over of the last eight has no flux.
 typedef struct {
   float to_bake[9][8]; // rows of the rotation from the scene into the coordinates of that direction's spheres
   float flux[3][8];    // linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
@@ -39,8 +39,8 @@ typedef struct {
   int padding;
 } DeviceSpheres;
 
-// A pixel whose first surface is glass has one of what it reflects and one of what it lets through, or three of that where glass parts
-// colours. Other pixels have one.
+// A pixel whose first surface is glass has one of what it reflects and one of what it lets through, or three of that
+// where glass parts colours. Other pixels have one.
 typedef struct {
   float4 throughput; // linear sRGB that white radiance there is to the pixel; w: END_*
   float4 place;      // sky: the direction; surface: its position; w: Surface::offset

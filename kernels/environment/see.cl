@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the pixels' paths end: at a diffuse surface or at the environment, straight or through glass and mirrors. What light is there is
-// shade.cl's: while only light changes, ends stay.
+// Where the pixels' paths end: at a diffuse surface or at the environment, straight or through glass and mirrors. What
+// light is there is shade.cl's: while only light changes, ends stay.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/camera.h"
@@ -13,14 +13,16 @@ static inline DeviceEnd nowhere(void)
   return end;
 }
 
-// Where a path ends. first: what it meets next, where that is known. weight: linear sRGB. likelier: of reflection and refraction on its way.
-static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band, float3 weight, uint2 seed,
-                               uint sample, uint pixel, bool likelier)
+// Where a path ends. first: what it meets next, where that is known. weight: linear sRGB. likelier: of reflection and
+// refraction on its way.
+static inline DeviceEnd end_of(const World* world, Path path, const Hit* first, bool known, const Band* band,
+                               float3 weight, uint2 seed, uint sample, uint pixel, bool likelier)
 {
   DeviceEnd end = nowhere();
   Surface surface;
   Hit hit = *first;
-  const float scale = trace_to_diffuse(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
+  const float scale =
+      trace_to_diffuse(world, &path, &hit, known, band, seed, sample, 0u, pixel, STREAM_SEE, likelier, &surface);
   if (scale == 0.0f) return end;
   const float3 throughput = scale * wavelength_left(&world->tables, &path.losses, max(band->wavelength, 0)) * weight;
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) {
@@ -42,10 +44,12 @@ static inline void want(const DeviceEnd* end, float4 middle, int size, __global 
   if (end->throughput.w != (float)END_SURFACE) return;
   const CubeTexels four = cube_texels(end->place.xyz - middle.xyz, size);
   for (int i = 0; i < 4; ++i)
-    if (states[four.texels[i]] == RECEIVER_UNSEEN) states[four.texels[i]] = RECEIVER_WANTED; // others may write the same
+    if (states[four.texels[i]] == RECEIVER_UNSEEN)
+      states[four.texels[i]] = RECEIVER_WANTED; // others may write the same
 }
 
-// How much of the light glass reflects where a path has met it: from the directions before and after. n_ratio: of indices, near over far.
+// How much of the light glass reflects where a path has met it: from the directions before and after. n_ratio: of
+// indices, near over far.
 static inline float reflected_share(float3 direction, float3 reflected, float n_ratio)
 {
   const float3 normal = normalize(reflected - direction);
@@ -53,8 +57,8 @@ static inline float reflected_share(float3 direction, float3 reflected, float n_
   return cos_t < 0.0f ? 1.0f : fresnel_reflectance(cos_i, cos_t, n_ratio, 1.0f);
 }
 
-// The band of a path that is for one channel of the picture: a wavelength that is drawn by how much of white light of that channel it is.
-// channel_cdf: [channel][401].
+// The band of a path that is for one channel of the picture: a wavelength that is drawn by how much of white light of
+// that channel it is. channel_cdf: [channel][401].
 static inline Band band_of_channel(__global const float* channel_cdf, int channel, float u)
 {
 #if NEPHROID_JITTER
@@ -65,9 +69,10 @@ static inline Band band_of_channel(__global const float* channel_cdf, int channe
 #endif
 }
 
-// Takes a path from the eye on from the glass or mirror that it meets first, where it is reflected or goes through. weight: linear sRGB of the
-// channel. False where there is no such way.
-static inline bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, int channel, bool reflected, float3* weight)
+// Takes a path from the eye on from the glass or mirror that it meets first, where it is reflected or goes through.
+// weight: linear sRGB of the channel. False where there is no such way.
+static inline bool first_bend(const World* world, Path* path, const Hit* hit, const Band* band, int channel,
+                              bool reflected, float3* weight)
 {
   const Surface surface = surface_at(&world->geometry, *hit);
   const DeviceMaterial material = material_of(world, surface.object);
@@ -85,21 +90,25 @@ static inline bool first_bend(const World* world, Path* path, const Hit* hit, co
     *weight = share * (float3)(1.0f);
     return two_ways && reflects;
   }
-  *weight = (1.0f - share) * n_through * n_through * (ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2));
+  *weight = (1.0f - share) * n_through * n_through *
+            (ENDS_OF_PIXEL == 2 ? (float3)(1.0f) : (float3)(channel == 0, channel == 1, channel == 2));
   return goes_on;
 }
 
-// Paths for each square of block x block pixels, first .. first + count - 1 counted row after row; ends: ENDS_OF_PIXEL for each. A pixel
-// that first sees glass follows both what it reflects and what it lets through; that in three colours where glass parts them. In
-// a coarse picture, of larger squares, paths take the likelier way at the surfaces after that: one that did not would stand out as a square.
-__kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states, int size, float4 middle,
-                  DeviceCamera camera, uint2 seed, uint pass, int block, uint first, uint count)
+// Paths for each square of block x block pixels, first .. first + count - 1 counted row after row; ends: ENDS_OF_PIXEL
+// for each. A pixel that first sees glass follows both what it reflects and what it lets through; that in three colours
+// where glass parts them. In a coarse picture, of larger squares, paths take the likelier way at the surfaces after
+// that: one that did not would stand out as a square.
+__kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global DeviceEnd* ends, __global int* states,
+                  int size, float4 middle, DeviceCamera camera, uint2 seed, uint pass, int block, uint first,
+                  uint count)
 {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
   const uint item = first + index;
-  const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block, row = (int)item / columns * block;
+  const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block,
+            row = (int)item / columns * block;
   const uint pixel = (uint)(row * camera.width + column);
   const bool coarse = block > 1;
   const float2 jitter = coarse ? (float2)(0.5f * (float)block) : random4(seed, pass, pixel, 0u, STREAM_SEE).xy;
@@ -121,7 +130,8 @@ __kernel void see(WORLD_ARGUMENTS, __global const float* channel_cdf, __global D
       goes_on = first_bend(&world, &way, &hit, &band, channel, i == ENDS_OF_PIXEL - 1, &weight);
     }
     DeviceEnd end = nowhere();
-    if (goes_on) end = end_of(&world, way, &hit, !bent, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse);
+    if (goes_on)
+      end = end_of(&world, way, &hit, !bent, &band, weight, seed, ENDS_OF_PIXEL * pass + (uint)i, pixel, coarse);
     ends[ENDS_OF_PIXEL * item + i] = end;
     want(&end, middle, size, states);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light the pixels' paths bring from their ends (see.cl): the environment itself; on a surface its direct light and that of lamps, and
-// caustics from the cube of receivers.
+// What light the pixels' paths bring from their ends (see.cl): the environment itself; on a surface its direct light
+// and that of lamps, and caustics from the cube of receivers.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/render_types.h"
 #include "kernels/tracing/background.h"
@@ -15,10 +15,11 @@
 #define LAYER_BACKGROUND 0
 #define LAYER_DIRECT 1
 #define LAYER_CAUSTIC 2
-#define LAYER_SMOOTH 3 // direct light without noise: the environment lights surfaces by its smooth part, with shadows of a few lights
+// Direct light without noise: the environment lights surfaces by its smooth part, with shadows of a few lights.
+#define LAYER_SMOOTH 3
 
-// A part of the expected distance, and of a texel's width, by which a receiver's distance may differ from what it should be were the
-// surface flat there.
+// A part of the expected distance, and of a texel's width, by which a receiver's distance may differ from what it
+// should be were the surface flat there.
 #define DISTANCE_TOLERANCE 0.02f
 
 typedef struct {
@@ -29,8 +30,8 @@ typedef struct {
   __global const float* parts_seen; // of the environment's light: [texel][3]
 } Receivers;
 
-// Irradiance on a surface by the caustics: linear sRGB, 0 where something else hides it from the object. *seen: of the environment's light, 1
-// there. Of the four texels about it those count that see the same surface.
+// Irradiance on a surface by the caustics: linear sRGB, 0 where something else hides it from the object. *seen: of the
+// environment's light, 1 there. Of the four texels about it those count that see the same surface.
 static inline float3 caustic_irradiance(const Receivers* receivers, const DeviceEnd* end, float3* seen)
 {
   *seen = (float3)(1.0f);
@@ -44,7 +45,8 @@ static inline float3 caustic_irradiance(const Receivers* receivers, const Device
   float weights = 0.0f;
   for (int i = 0; i < 4; ++i) {
     const float along = -dot(end->geometric.xyz, cube_texel_direction(four.texels[i], receivers->size));
-    const float expected = along > 0.0f ? distance * facing / along : INFINITY, found = receivers->distances[four.texels[i]];
+    const float expected = along > 0.0f ? distance * facing / along : INFINITY,
+                found = receivers->distances[four.texels[i]];
     if (!(fabs(found - expected) <= DISTANCE_TOLERANCE * expected + 4.0f * distance / (float)receivers->size)) continue;
     sum += four.weights[i] * vload3((size_t)four.texels[i], receivers->caustics);
     parts += four.weights[i] * vload3((size_t)four.texels[i], receivers->parts_seen);
@@ -55,13 +57,13 @@ static inline float3 caustic_irradiance(const Receivers* receivers, const Device
   return sum / (weights * distance * distance);
 }
 
-// Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of app/environment/segment/irradiance.h.
-// polynomial: factors of 1, x, y, z, xx, yy, zz, xy, yz, zx.
+// Irradiance of the environment on a surface with the normal n, without shadows: the polynomial of
+// app/environment/segment/irradiance.h. polynomial: factors of 1, x, y, z, xx, yy, zz, xy, yz, zx.
 static inline float3 smooth_irradiance(__global const float4* polynomial, float3 n)
 {
   __global const float4* p = polynomial;
-  const float4 sum = p[0] + n.x * p[1] + n.y * p[2] + n.z * p[3] + n.x * n.x * p[4] + n.y * n.y * p[5] + n.z * n.z * p[6] +
-                     n.x * n.y * p[7] + n.y * n.z * p[8] + n.z * n.x * p[9];
+  const float4 sum = p[0] + n.x * p[1] + n.y * p[2] + n.z * p[3] + n.x * n.x * p[4] + n.y * n.y * p[5] +
+                     n.z * n.z * p[6] + n.x * n.y * p[7] + n.y * n.z * p[8] + n.z * n.x * p[9];
   return max(sum.xyz, 0.0f);
 }
 
@@ -72,12 +74,13 @@ static inline float3 reflected_colour(__global const float4* reflected_rgb, int 
   return rgb.x * of[0].xyz + rgb.y * of[1].xyz + rgb.z * of[2].xyz;
 }
 
-// Radiance of a surface by what reaches it unbent, linear sRGB; *smooth: of the layer smooth. seen: which part of the environment's light is for
-// that. lit_rgb: [row of the lights' tables][reflector]. sequence: of the numbers that places in the environment are drawn by, of which a pass
-// takes one.
+// Radiance of a surface by what reaches it unbent, linear sRGB; *smooth: of the layer smooth. seen: which part of the
+// environment's light is for that. lit_rgb: [row of the lights' tables][reflector]. sequence: of the numbers that
+// places in the environment are drawn by, of which a pass takes one.
 static inline float3 direct_radiance(const World* world, const DeviceEnd* end, __global const float4* lit_rgb,
-                                     __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit, uint2 seed,
-                                     uint pass, uint sequence, float3 seen, float3* smooth)
+                                     __global const float4* reflected_rgb, __global const float4* irradiance,
+                                     float power_unit, uint2 seed, uint pass, uint sequence, float3 seen,
+                                     float3* smooth)
 {
   const int reflector = as_int(end->shading.w);
   const uint primitive = as_uint(end->geometric.w);
@@ -95,10 +98,12 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
       sum += reflected_colour(reflected_rgb, reflector, seen * smooth_irradiance(irradiance, surface.shading));
 #if !NEPHROID_COARSE
       const float3 rgb = power_unit * sky_irradiance(world, l, &path, &surface, primitive, seed, pass, 1u, sequence);
-      sampled += rgb.x * row[0].xyz + rgb.y * row[world->reflector_count].xyz + rgb.z * row[2 * world->reflector_count].xyz;
+      sampled +=
+          rgb.x * row[0].xyz + rgb.y * row[world->reflector_count].xyz + rgb.z * row[2 * world->reflector_count].xyz;
 #endif
     } else {
-      const float3 lamp = row->xyz * (power_unit * irradiance_of(world, l, &path, &surface, primitive, seed, pass, 1u, sequence));
+      const float3 lamp =
+          row->xyz * (power_unit * irradiance_of(world, l, &path, &surface, primitive, seed, pass, 1u, sequence));
       sampled += lamp;
       sum += lamp;
     }
@@ -108,10 +113,12 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
 }
 
 // Adds to the sums of the pixels of each square, or begins them anew. sums: [layer][pixel][3].
-__kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels, DeviceBackground texels_size, float radiance,
-                    __global const float4* lit_rgb, __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit,
-                    float4 middle, int size, __global const float* distances, __global const float* caustics, __global const float* parts_seen,
-                    __global float* sums, int width, int height, uint2 seed, uint pass, int block, int anew, uint first, uint count)
+__kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global const float* texels,
+                    DeviceBackground texels_size, float radiance, __global const float4* lit_rgb,
+                    __global const float4* reflected_rgb, __global const float4* irradiance, float power_unit,
+                    float4 middle, int size, __global const float* distances, __global const float* caustics,
+                    __global const float* parts_seen, __global float* sums, int width, int height, uint2 seed,
+                    uint pass, int block, int anew, uint first, uint count)
 {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
@@ -119,18 +126,20 @@ __kernel void shade(WORLD_ARGUMENTS, __global const DeviceEnd* ends, __global co
   const Background background = {texels, 0, texels_size};
   const Receivers receivers = {middle, size, distances, caustics, parts_seen};
   const uint item = first + index;
-  const int columns = (width + block - 1) / block, column = (int)item % columns * block, row = (int)item / columns * block;
+  const int columns = (width + block - 1) / block, column = (int)item % columns * block,
+            row = (int)item / columns * block;
   const uint pixel = (uint)(row * width + column);
   float3 layers[LAYERS] = {(float3)(0.0f), (float3)(0.0f), (float3)(0.0f), (float3)(0.0f)};
   for (uint i = 0; i < ENDS_OF_PIXEL; ++i) {
     const DeviceEnd end = ends[ENDS_OF_PIXEL * item + i];
     const float3 throughput = end.throughput.xyz;
-    if (end.throughput.w == (float)END_SKY) layers[LAYER_BACKGROUND] += throughput * (radiance * background_rgb(&background, end.place.xyz));
+    if (end.throughput.w == (float)END_SKY)
+      layers[LAYER_BACKGROUND] += throughput * (radiance * background_rgb(&background, end.place.xyz));
     if (end.throughput.w != (float)END_SURFACE) continue;
     float3 smooth, seen;
     const float3 caustic = caustic_irradiance(&receivers, &end, &seen);
-    layers[LAYER_DIRECT] += throughput * direct_radiance(&world, &end, lit_rgb, reflected_rgb, irradiance, power_unit, seed,
-                                                         pass, pixel * ENDS_OF_PIXEL + i, seen, &smooth);
+    layers[LAYER_DIRECT] += throughput * direct_radiance(&world, &end, lit_rgb, reflected_rgb, irradiance, power_unit,
+                                                         seed, pass, pixel * ENDS_OF_PIXEL + i, seen, &smooth);
     layers[LAYER_SMOOTH] += throughput * smooth;
     layers[LAYER_CAUSTIC] += throughput * reflected_colour(reflected_rgb, as_int(end.shading.w), caustic) / PI_F;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg (2008, "Fast
-// equal-area mapping of the (hemi)sphere using SIMD"). app/environment/bake/bake.h has the same in double.
+// The map of a caustic sphere: a square whose texels all have the same solid angle, by the octahedral map of Clarberg
+// (2008, "Fast equal-area mapping of the (hemi)sphere using SIMD"). app/environment/bake/bake.h has the same in double.
 #ifndef NEPHROID_SPHERE_MAP_H
 #define NEPHROID_SPHERE_MAP_H
 
@@ -22,7 +22,8 @@ static inline int sphere_texel(float3 direction, int side)
 // The unit direction of a texel's middle.
 static inline float3 sphere_direction(int texel, int side)
 {
-  const float2 place = ((float2)((float)(texel % side), (float)(texel / side)) + 0.5f) * (2.0f / (float)side) - 1.0f, size = fabs(place);
+  const float2 place = ((float2)((float)(texel % side), (float)(texel / side)) + 0.5f) * (2.0f / (float)side) - 1.0f,
+               size = fabs(place);
   const float height = 1.0f - size.x - size.y, r = 1.0f - fabs(height); // above 0: the upper half
   const float azimuth = r > 0.0f ? ((size.y - size.x) / r + 1.0f) * (0.25f * PI_F) : 0.0f;
   const float sine = r * sqrt(2.0f - r * r);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks up caustic spheres: E r^2 in a direction from the object's middle at a distance, between spheres and between texels. E r^2 goes
-// on unchanged beyond the largest sphere, where light has left the object's neighbourhood and thins out by the inverse square.
+// Looks up caustic spheres: E r^2 in a direction from the object's middle at a distance, between spheres and between
+// texels. E r^2 goes on unchanged beyond the largest sphere, where light has left the object's neighbourhood and thins
+// out by the inverse square.
 #ifndef NEPHROID_SPHERES_H
 #define NEPHROID_SPHERES_H
 
@@ -22,37 +23,40 @@ static inline Shell shell_at(__global const float* radii, int count, float dista
   int upper = 0;
   while (upper < count && radii[upper] < distance) ++upper;
   Shell shell = {max(upper - 1, 0), min(upper, count - 1), 0.0f};
-  if (shell.lower < shell.upper) shell.part = (distance - radii[shell.lower]) / (radii[shell.upper] - radii[shell.lower]);
+  if (shell.lower < shell.upper)
+    shell.part = (distance - radii[shell.lower]) / (radii[shell.upper] - radii[shell.lower]);
   return shell;
 }
 
-// Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2 goes to 0.
+// Nearer to the middle than the smallest sphere E stays as it is there: what light does inside is not known, and r^2
+// goes to 0.
 static inline float held(__global const float* radii, float distance)
 {
   const float part = fmin(distance / radii[0], 1.0f);
   return part * part;
 }
 
-// Where a unit vector is in a sphere's map, in texels from the middle of the border's outermost texel: rounded down these are the column and
-// the row of the first of the four texels about it, what is left is how far it is to the others. atan(t) / (pi / 2) is a polynomial within
-// 1e-5 (Abramowitz and Stegun 4.4.49), a hundredth of a texel; atan2 itself would take a third of all time. REAL: float, or float8 for eight
-// vectors at once.
-#define DEFINE_STORED_PLACE(NAME, REAL)                                                                                                  \
-  static inline void NAME(REAL x, REAL y, REAL z, float side, REAL* column, REAL* row)                                                  \
-  {                                                                                                                                      \
-    const REAL a = fabs(x), b = fabs(y), zero = 0.0f, one = 1.0f;                                                                        \
-    const REAL r = sqrt((a * a + b * b) / (1.0f + fabs(z)));                                                                             \
-    const REAL t = (b > a ? a : b) / (b > a ? b : a), t2 = t * t;                                                                        \
-    const REAL atan_t = t * (0.9998660f + t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));                \
-    const REAL quarters = atan_t * (2.0f / PI_F);                                                                                        \
-    const REAL v = r > zero ? r * (b > a ? one - quarters : quarters) : zero, u = r - v;                                                 \
-    *column = 0.5f + side * (0.5f + 0.5f * copysign(z < zero ? one - v : u, x));                                                         \
-    *row = 0.5f + side * (0.5f + 0.5f * copysign(z < zero ? one - u : v, y));                                                            \
+// Where a unit vector is in a sphere's map, in texels from the middle of the border's outermost texel: rounded down
+// these are the column and the row of the first of the four texels about it, what is left is how far it is to the
+// others. atan(t) / (pi / 2) is a polynomial within 1e-5 (Abramowitz and Stegun 4.4.49), a hundredth of a texel; atan2
+// itself would take a third of all time. REAL: float, or float8 for eight vectors at once.
+#define DEFINE_STORED_PLACE(NAME, REAL)                                                                                \
+  static inline void NAME(REAL x, REAL y, REAL z, float side, REAL* column, REAL* row)                                 \
+  {                                                                                                                    \
+    const REAL a = fabs(x), b = fabs(y), zero = 0.0f, one = 1.0f;                                                      \
+    const REAL r = sqrt((a * a + b * b) / (1.0f + fabs(z)));                                                           \
+    const REAL t = (b > a ? a : b) / (b > a ? b : a), t2 = t * t;                                                      \
+    const REAL atan_t =                                                                                                \
+        t * (0.9998660f + t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));              \
+    const REAL quarters = atan_t * (2.0f / PI_F);                                                                      \
+    const REAL v = r > zero ? r * (b > a ? one - quarters : quarters) : zero, u = r - v;                               \
+    *column = 0.5f + side * (0.5f + 0.5f * copysign(z < zero ? one - v : u, x));                                       \
+    *row = 0.5f + side * (0.5f + 0.5f * copysign(z < zero ? one - u : v, y));                                          \
   }
 DEFINE_STORED_PLACE(stored_place, float)
 
-// The texel of a map of side x side that a texel of its stored form shows, whose border has what is over the edge: there the square goes on
-// at the same edge, from its other end.
+// The texel of a map of side x side that a texel of its stored form shows, whose border has what is over the edge:
+// there the square goes on at the same edge, from its other end.
 static inline int texel_of_stored(int stored, int side)
 {
   const int stride = side + 2, last = side - 1, column = stored % stride - 1, row = stored / stride - 1;
@@ -61,8 +65,8 @@ static inline int texel_of_stored(int stored, int side)
   return (across ? last - y : y) * side + (down ? last - x : x);
 }
 
-// What the kernels look up. Maps are in their stored form, direction after direction. Numbers are stored as the upper halves
-// of floats: nine bits are more than the photons' noise leaves, and no device takes long over them.
+// What the kernels look up. Maps are in their stored form, direction after direction. Numbers are stored as the upper
+// halves of floats: nine bits are more than the photons' noise leaves, and no device takes long over them.
 typedef struct {
   __global const ushort* stored; // [map][texel][channel]
   __global const ushort* ways;   // [map][texel], numbers of way_of
@@ -107,7 +111,8 @@ static inline float3 stored_between(__global const ushort* map, const FourTexels
 }
 
 // Of one set's spheres, in their stored form.
-static inline float3 stored_between_spheres(__global const ushort* set, const DeviceSpheres* spheres, const FourTexels* four, Shell shell)
+static inline float3 stored_between_spheres(__global const ushort* set, const DeviceSpheres* spheres,
+                                            const FourTexels* four, Shell shell)
 {
   const size_t map_items = NEPHROID_CHANNELS * (size_t)((spheres->side + 2) * (spheres->side + 2));
   const float3 lower = stored_between(set + (size_t)shell.lower * map_items, four);
@@ -121,7 +126,8 @@ static inline float3 row_of_set(__global const DeviceEightSets* eight, int k, in
 }
 static inline float3 in_set(__global const DeviceEightSets* eight, int k, float3 direction)
 {
-  return (float3)(dot(row_of_set(eight, k, 0), direction), dot(row_of_set(eight, k, 1), direction), dot(row_of_set(eight, k, 2), direction));
+  return (float3)(dot(row_of_set(eight, k, 0), direction), dot(row_of_set(eight, k, 1), direction),
+                  dot(row_of_set(eight, k, 2), direction));
 }
 static inline float3 flux_of_set(__global const DeviceEightSets* eight, int k)
 {
@@ -136,8 +142,8 @@ typedef struct {
 } SetLight;
 
 // Of set k of eight.
-static inline SetLight light_of_set(const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* eight, int k, float3 direction,
-                                    Shell shell)
+static inline SetLight light_of_set(const Maps* maps, const DeviceSpheres* spheres,
+                                    __global const DeviceEightSets* eight, int k, float3 direction, Shell shell)
 {
   SetLight light;
   light.outwards = in_set(eight, k, direction);
@@ -150,11 +156,12 @@ static inline SetLight light_of_set(const Maps* maps, const DeviceSpheres* spher
 }
 
 #ifdef NEPHROID_GPU
-// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on the object's side. beyond:
-// 0 up to the largest sphere, towards 1 far from it (spheres_eight.h). One set after the other: eight side by side need more registers than
-// there are.
-static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* sets, int eights,
-                                     float3 direction, Shell shell, float beyond, float3 normal)
+// E r^2 of all sets, linear sRGB, on a surface that lies in a unit direction from the middle and has a unit normal on
+// the object's side. beyond: 0 up to the largest sphere, towards 1 far from it (spheres_eight.h). One set after the
+// other: eight side by side need more registers than there are.
+static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* spheres,
+                                     __global const DeviceEightSets* sets, int eights, float3 direction, Shell shell,
+                                     float beyond, float3 normal)
 {
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < 8 * eights; ++i) {
@@ -171,7 +178,8 @@ static inline float3 caustic_of_sets(const Maps* maps, const DeviceSpheres* sphe
 #include "kernels/environment/spheres_eight.h"
 #endif
 
-// Light in the air at a place: of each set E r^2 across the way that its light goes there, instead of through the sphere.
+// Light in the air at a place: of each set E r^2 across the way that its light goes there, instead of through the
+// sphere.
 typedef struct {
   float3 rgb; // linear sRGB
   float3 way; // the mean way in the scene, weighted by luminance: shorter than that where light goes several ways
@@ -180,24 +188,28 @@ typedef struct {
 static inline float luminance_of(float3 rgb) { return dot(rgb, (float3)(0.2126f, 0.7152f, 0.0722f)); }
 
 // What set k of eight adds, in a unit direction of the scene.
-static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres* spheres, __global const DeviceEightSets* eight, int k, float3 direction,
-                           Shell shell)
+static inline void add_air(AirLight* sum, const Maps* maps, const DeviceSpheres* spheres,
+                           __global const DeviceEightSets* eight, int k, float3 direction, Shell shell)
 {
   const SetLight light = light_of_set(maps, spheres, eight, k, direction, shell);
   const float3 way = light.way;
-  const float3 rgb = (spheres->scale / fmax(fabs(dot(light.outwards, way)), LEAST_COSINE)) * flux_of_set(eight, k) * light.stored;
+  const float3 rgb =
+      (spheres->scale / fmax(fabs(dot(light.outwards, way)), LEAST_COSINE)) * flux_of_set(eight, k) * light.stored;
   sum->rgb += rgb;
-  sum->way += luminance_of(rgb) * (way.x * row_of_set(eight, k, 0) + way.y * row_of_set(eight, k, 1) + way.z * row_of_set(eight, k, 2));
+  sum->way += luminance_of(rgb) *
+              (way.x * row_of_set(eight, k, 0) + way.y * row_of_set(eight, k, 1) + way.z * row_of_set(eight, k, 2));
 }
 
 // What compile_air has made of all sets: [sphere][texel of the stored form][6], in coordinates of the object.
-static inline AirLight compiled_air(__global const float* air, const DeviceSpheres* spheres, float3 in_object, Shell shell)
+static inline AirLight compiled_air(__global const float* air, const DeviceSpheres* spheres, float3 in_object,
+                                    Shell shell)
 {
   const FourTexels four = four_texels(in_object, spheres->side);
   const size_t map_texels = (size_t)((spheres->side + 2) * (spheres->side + 2));
   AirLight sum = {(float3)(0.0f), (float3)(0.0f)};
   for (int i = 0; i < 4; ++i) {
-    const size_t lower = 2 * ((size_t)shell.lower * map_texels + four.texels[i]), upper = 2 * ((size_t)shell.upper * map_texels + four.texels[i]);
+    const size_t lower = 2 * ((size_t)shell.lower * map_texels + four.texels[i]),
+                 upper = 2 * ((size_t)shell.upper * map_texels + four.texels[i]);
     const float3 rgb = vload3(lower, air), way = vload3(lower + 1, air);
     sum.rgb += four.weights[i] * (rgb + shell.part * (vload3(upper, air) - rgb));
     sum.way += four.weights[i] * (way + shell.part * (vload3(upper + 1, air) - way));

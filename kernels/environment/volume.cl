@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics in the air: light that the object sends out and that a thin medium scatters once, towards the eye (thesis 3.2.1). Each path from the eye
-// is walked in steps up to the first surface that it meets, within the largest caustic sphere. What the medium takes of a step's light on the
-// way to the eye is lost; surfaces and the environment keep theirs.
+// Caustics in the air: light that the object sends out and that a thin medium scatters once, towards the eye (thesis
+// 3.2.1). Each path from the eye is walked in steps up to the first surface that it meets, within the largest caustic
+// sphere. What the medium takes of a step's light on the way to the eye is lost; surfaces and the environment keep
+// theirs.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 #include "kernels/tracing/camera.h"
@@ -9,9 +10,9 @@
 
 #define VOLUME_STEPS 128
 
-// Part of the light that is scattered into a steradian, by the cosine between the mean way before and the way after. together: the length of
-// the mean of unit ways, 1 where all are the same. Ways that lie about their mean as Henyey and Greenstein's do make the first moment of the
-// phase function smaller by that, and the second by its square.
+// Part of the light that is scattered into a steradian, by the cosine between the mean way before and the way after.
+// together: the length of the mean of unit ways, 1 where all are the same. Ways that lie about their mean as Henyey and
+// Greenstein's do make the first moment of the phase function smaller by that, and the second by its square.
 static inline float phase_function(float cosine, float together, int rayleigh, float g)
 {
   if (rayleigh) return 1.0f / (4.0f * PI_F) * (1.0f + together * together * (0.75f * cosine * cosine - 0.25f));
@@ -19,17 +20,19 @@ static inline float phase_function(float cosine, float together, int rayleigh, f
   return (1.0f - mean * mean) / (4.0f * PI_F * base * sqrt(base));
 }
 
-// Of each square of block x block pixels. distances: of the whole cube of receivers. extinction: 1 / unit. sums: [pixel][3].
-__kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii, DeviceSpheres spheres, float4 object_x,
-                     float4 object_y, float4 object_z, __global const float* distances, int size, float4 middle, DeviceCamera camera,
-                     float extinction, float albedo, int rayleigh, float anisotropy, __global float* sums, uint2 seed, uint pass, int block, int anew,
-                     uint first, uint count)
+// Of each square of block x block pixels. distances: of the whole cube of receivers. extinction: 1 / unit. sums:
+// [pixel][3].
+__kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const float* radii, DeviceSpheres spheres,
+                     float4 object_x, float4 object_y, float4 object_z, __global const float* distances, int size,
+                     float4 middle, DeviceCamera camera, float extinction, float albedo, int rayleigh, float anisotropy,
+                     __global float* sums, uint2 seed, uint pass, int block, int anew, uint first, uint count)
 {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
   if (index >= count) return;
   const uint item = first + index;
-  const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block, row = (int)item / columns * block;
+  const int columns = (camera.width + block - 1) / block, column = (int)item % columns * block,
+            row = (int)item / columns * block;
   const uint pixel = (uint)(row * camera.width + column);
   const float4 random = random4(seed, pass, pixel, 0u, STREAM_SEE);
   const float2 jitter = block > 1 ? (float2)(0.5f * (float)block) : random.xy;
@@ -41,7 +44,8 @@ __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const 
   const float largest = radii[spheres.count - 1], foot = -dot(from_middle, path.direction);
   const float3 nearest = from_middle + foot * path.direction;
   const float half2 = largest * largest - dot(nearest, nearest), half_chord = sqrt(fmax(half2, 0.0f));
-  const float begin = fmax(foot - half_chord, 0.0f), end = fmin(foot + half_chord, hit.primitive == NEPHROID_NO_PRIMITIVE ? INFINITY : hit.t);
+  const float begin = fmax(foot - half_chord, 0.0f),
+              end = fmin(foot + half_chord, hit.primitive == NEPHROID_NO_PRIMITIVE ? INFINITY : hit.t);
   float3 sum = (float3)(0.0f);
   if (end > begin) {
     const float step = (end - begin) / VOLUME_STEPS;
@@ -52,12 +56,14 @@ __kernel void volume(WORLD_ARGUMENTS, __global const float* air, __global const 
       if (distance < radii[0]) continue;
       const float3 outwards = place / distance;
       if (distance > distances[cube_texel(outwards, size)]) continue; // something stands before it
-      const float3 in_object = (float3)(dot(object_x.xyz, outwards), dot(object_y.xyz, outwards), dot(object_z.xyz, outwards));
+      const float3 in_object =
+          (float3)(dot(object_x.xyz, outwards), dot(object_y.xyz, outwards), dot(object_z.xyz, outwards));
       const AirLight light = compiled_air(air, &spheres, in_object, shell_at(radii, spheres.count, distance));
       const float all = luminance_of(light.rgb), length_of_way = length(light.way);
       if (!(all > 0.0f && length_of_way > 0.0f)) continue;
       const float cosine = -dot(light.way, path.direction) / length_of_way, together = fmin(length_of_way / all, 1.0f);
-      sum += light.rgb * (phase_function(cosine, together, rayleigh, anisotropy) * exp(-extinction * way) / (distance * distance));
+      sum += light.rgb *
+             (phase_function(cosine, together, rayleigh, anisotropy) * exp(-extinction * way) / (distance * distance));
     }
     sum *= extinction * albedo * step;
   }

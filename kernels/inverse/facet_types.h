@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs that engine 3's host code writes and its kernels read: app/inverse/layout.h in single precision. Lengths are in millimetres.
+// Structs that engine 3's host code writes and its kernels read: app/inverse/layout.h in single precision. Lengths are
+// in millimetres.
 #ifndef NEPHROID_FACET_TYPES_H
 #define NEPHROID_FACET_TYPES_H
 
@@ -9,7 +10,8 @@
 namespace nephroid::shared {
 #endif
 
-// Light is counted in quanta: so many are what a facet sends at best. Sums do not depend on the order of their terms then.
+// Light is counted in quanta: so many are what a facet sends at best. Sums do not depend on the order of their terms
+// then.
 #define FACET_QUANTA 0x1p24f
 
 // A footprint is so many beams at most: 2^4.
@@ -67,7 +69,8 @@ typedef struct {
 // A ray's light is counted in quanta: so many are what falls on a facet.
 #define RAY_QUANTA 0x1p32f
 
-// Where the light goes that falls on the front: inverse::RayOutcomes. Sums are kept in many places, so that rays seldom meet there.
+// Where the light goes that falls on the front: inverse::RayOutcomes. Sums are kept in many places, so that rays seldom meet
+// there.
 #define FATE_REFLECTED 0
 #define FATE_LOST 1
 #define FATE_SENT 2

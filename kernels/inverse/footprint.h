@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h, which has the reasons, in single precision.
+// Where the light of one facet falls on a receiver: app/inverse/assign/footprint.h, which has the reasons, in single
+// precision.
 #ifndef NEPHROID_FOOTPRINT_H
 #define NEPHROID_FOOTPRINT_H
 
@@ -43,7 +44,10 @@ static inline float part_before(Beam beam, float t)
 }
 
 // Part of the beam on a cell.
-static inline float part_on(Beam beam, int cell) { return part_before(beam, (float)(cell + 1)) - part_before(beam, (float)cell); }
+static inline float part_on(Beam beam, int cell)
+{
+  return part_before(beam, (float)(cell + 1)) - part_before(beam, (float)cell);
+}
 
 // Of an edge between cells, far off or not.
 static inline int edge_cell(float edge, int cells) { return (int)clamp(edge, 0.0f, (float)cells); }
@@ -62,12 +66,14 @@ typedef struct {
 static inline float2 middle_of_facet(global const DeviceLayout* layout, uint facet)
 {
   const float column = (float)(facet % (uint)layout->columns), row = (float)(facet / (uint)layout->columns);
-  return (float2)((column + 0.5f) * layout->facet_x - 0.5f * layout->size_x, 0.5f * layout->size_y - (row + 0.5f) * layout->facet_y);
+  return (float2)((column + 0.5f) * layout->facet_x - 0.5f * layout->size_x,
+                  0.5f * layout->size_y - (row + 0.5f) * layout->facet_y);
 }
 
 static inline float2 in_cells(global const DeviceLayout* layout, DeviceReceiver receiver, float2 p)
 {
-  return (float2)((p.x - receiver.x + 0.5f * layout->receiver_x) / layout->cell_x, (0.5f * layout->receiver_y - (p.y - receiver.y)) / layout->cell_y);
+  return (float2)((p.x - receiver.x + 0.5f * layout->receiver_x) / layout->cell_x,
+                  (0.5f * layout->receiver_y - (p.y - receiver.y)) / layout->cell_y);
 }
 
 // A facet, and what does not depend on its slope.
@@ -79,10 +85,17 @@ typedef struct {
   global const DeviceIncoming* all; // light on all facets
 } Facet;
 
-static inline Facet facet_at(global const DeviceLayout* layout, global const DeviceIncoming* incoming, global const float* heights, uint index)
+static inline Facet facet_at(global const DeviceLayout* layout, global const DeviceIncoming* incoming,
+                             global const float* heights, uint index)
 {
-  Facet facet = {(int)(index % (uint)layout->columns), (int)(index / (uint)layout->columns), middle_of_facet(layout, index),
-                 (float2)(0.0f), (float4)(0.0f), 1.0f, heights[index], incoming};
+  Facet facet = {(int)(index % (uint)layout->columns),
+                 (int)(index / (uint)layout->columns),
+                 middle_of_facet(layout, index),
+                 (float2)(0.0f),
+                 (float4)(0.0f),
+                 1.0f,
+                 heights[index],
+                 incoming};
 #if NEPHROID_INCOMING
   const DeviceIncoming in = incoming[index];
   facet.sines = (float2)(in.sines[0], in.sines[1]);
@@ -105,9 +118,10 @@ static inline float mean_above_0(float a, float b)
   return fabs(a) >= 0.5f * b ? fmax(a, 0.0f) : (a + 0.5f * b) * (a + 0.5f * b) / (2.0f * b);
 }
 
-// In parts of the facet's width: what the neighbour at a side of x hides of light with this slope, x and y being any two axes.
-static inline float hidden_by(global const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g, float g_other, int axis, float ratio,
-                              float meets)
+// In parts of the facet's width: what the neighbour at a side of x hides of light with this slope, x and y being any
+// two axes.
+static inline float hidden_by(global const DeviceLayout* layout, const Facet* facet, int2 to, float along, float g,
+                              float g_other, int axis, float ratio, float meets)
 {
   if (to.x < 0 || to.y < 0 || to.x >= layout->columns || to.y >= layout->rows) return 0.0f;
   global const float* around = facet->all[to.y * layout->columns + to.x].around;
@@ -115,15 +129,19 @@ static inline float hidden_by(global const DeviceLayout* layout, const Facet* fa
   return mean_above_0(along * 0.5f * (g + h), along * (g_other - h_other) * ratio) / fmax(0.1f, meets);
 }
 
-static inline LitPart lit_part(global const DeviceLayout* layout, const Facet* facet, float2 inside, float2 slope, float2 g)
+static inline LitPart lit_part(global const DeviceLayout* layout, const Facet* facet, float2 inside, float2 slope,
+                               float2 g)
 {
   const float ratio = layout->facet_y / layout->facet_x, in = 1.0f + dot(inside, g), out = 1.0f + dot(slope, g);
   const int2 at = (int2)(facet->column, facet->row); // rows count downwards
-  const int2 from = (int2)(inside.x > 0.0f ? -1 : 1, inside.y > 0.0f ? -1 : 1), to = (int2)(slope.x > 0.0f ? 1 : -1, slope.y > 0.0f ? 1 : -1);
-  const float2 shadow = (float2)(hidden_by(layout, facet, at + (int2)(from.x, 0), inside.x, g.x, g.y, 0, ratio, in),
-                                 hidden_by(layout, facet, at - (int2)(0, from.y), inside.y, g.y, g.x, 1, 1.0f / ratio, in));
-  const float2 stopped = (float2)(hidden_by(layout, facet, at + (int2)(to.x, 0), slope.x, g.x, g.y, 0, ratio, out),
-                                  hidden_by(layout, facet, at - (int2)(0, to.y), slope.y, g.y, g.x, 1, 1.0f / ratio, out));
+  const int2 from = (int2)(inside.x > 0.0f ? -1 : 1, inside.y > 0.0f ? -1 : 1),
+             to = (int2)(slope.x > 0.0f ? 1 : -1, slope.y > 0.0f ? 1 : -1);
+  const float2 shadow =
+      (float2)(hidden_by(layout, facet, at + (int2)(from.x, 0), inside.x, g.x, g.y, 0, ratio, in),
+               hidden_by(layout, facet, at - (int2)(0, from.y), inside.y, g.y, g.x, 1, 1.0f / ratio, in));
+  const float2 stopped =
+      (float2)(hidden_by(layout, facet, at + (int2)(to.x, 0), slope.x, g.x, g.y, 0, ratio, out),
+               hidden_by(layout, facet, at - (int2)(0, to.y), slope.y, g.y, g.x, 1, 1.0f / ratio, out));
   const LitPart lit = {-0.5f * (convert_float2(from) * shadow + convert_float2(to) * stopped),
                        fmax((float2)(1.0f) - shadow - stopped, (float2)(0.0f))};
   return lit;
@@ -163,7 +181,8 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
 #if NEPHROID_SPREAD
   // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
   const float2 s = facet->sines;
-  const float sun = 0.5f * layout->sun_radius, shrinks = 1.0f / (1.0f + sqrt(1.0f - dot(s, s))), rough = layout->scatter * layout->scatter;
+  const float sun = 0.5f * layout->sun_radius, shrinks = 1.0f / (1.0f + sqrt(1.0f - dot(s, s))),
+              rough = layout->scatter * layout->scatter;
   const float2 x = sun * (change.by_sine_x * (1.0f - s.x * s.x * shrinks) - change.by_sine_y * s.x * s.y * shrinks),
                y = sun * (change.by_sine_y * (1.0f - s.y * s.y * shrinks) - change.by_sine_x * s.x * s.y * shrinks);
   beams.covariance = (float3)(x.x * x.x + y.x * y.x + rough, x.x * x.y + y.x * y.y, x.y * x.y + y.y * y.y + rough);
@@ -171,9 +190,12 @@ static SEPARATE Beams beams_of(global const DeviceLayout* layout, const Facet* f
 #endif
 #if NEPHROID_INCOMING
   if (layout->spreads > 0.0f) { // by_sines * spread * (1 + inside g^T)
-    const float4 s = facet->spread, m = (float4)(1.0f + inside.x * g.x, inside.y * g.x, inside.x * g.y, 1.0f + inside.y * g.y);
-    const float4 around = (float4)(s.x * m.x + s.z * m.y, s.y * m.x + s.w * m.y, s.x * m.z + s.z * m.w, s.y * m.z + s.w * m.w);
-    beams.map_by_distance = (float4)(change.by_sine_x * around.x + change.by_sine_y * around.y, change.by_sine_x * around.z + change.by_sine_y * around.w);
+    const float4 s = facet->spread,
+                 m = (float4)(1.0f + inside.x * g.x, inside.y * g.x, inside.x * g.y, 1.0f + inside.y * g.y);
+    const float4 around =
+        (float4)(s.x * m.x + s.z * m.y, s.y * m.x + s.w * m.y, s.x * m.z + s.z * m.w, s.y * m.z + s.w * m.w);
+    beams.map_by_distance = (float4)(change.by_sine_x * around.x + change.by_sine_y * around.y,
+                                     change.by_sine_x * around.z + change.by_sine_y * around.w);
   }
 #endif
   return beams;
@@ -192,12 +214,14 @@ static inline float2 shift_of(global const DeviceLayout* layout, const Footprint
   float2 shift = layout->index_over[print->groups - 1 + i / print->points] * print->by_index;
   if (print->points == 1) return shift;
   const int k = 2 * (i % print->points);
-  const float2 p = print->points == 4 ? (float2)(layout->coarse_disc[k], layout->coarse_disc[k + 1]) : (float2)(layout->disc[k], layout->disc[k + 1]);
+  const float2 p = print->points == 4 ? (float2)(layout->coarse_disc[k], layout->coarse_disc[k + 1])
+                                      : (float2)(layout->disc[k], layout->disc[k + 1]);
   return shift + (float2)(print->root.x * p.x, print->root.y * p.x + print->root.z * p.y);
 }
 #endif
 
-static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Facet* facet, const Beams* beams, DeviceReceiver receiver)
+static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Facet* facet, const Beams* beams,
+                                    DeviceReceiver receiver)
 {
   Footprint print;
   const float way = receiver.distance + facet->height;
@@ -219,7 +243,8 @@ static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Fac
   print.by_index = beams->by_index * per_slope;
   const float xx = sqrt(both.x), xy = both.x > 0.0f ? both.y / xx : 0.0f, yy = sqrt(fmax(0.0f, both.z - xy * xy));
   print.root = (float3)(xx * per_slope.x, xy * per_slope.y, yy * per_slope.y);
-  variance += (is_wide ? print.points == 4 ? layout->left_of_coarse_disc : layout->left_of_disc : 1.0f) * (float2)(both.x, both.z);
+  variance += (is_wide ? print.points == 4 ? layout->left_of_coarse_disc : layout->left_of_disc : 1.0f) *
+              (float2)(both.x, both.z);
   print.low = print.high = shift_of(layout, &print, 0);
   for (int i = 1; i < print.groups * print.points; ++i) {
     print.low = fmin(print.low, shift_of(layout, &print, i));
@@ -227,8 +252,11 @@ static SEPARATE Footprint footprint(global const DeviceLayout* layout, const Fac
   }
 #endif
   const float4 map = beams->map + way * beams->map_by_distance;
-  const float2 size = (float2)(layout->facet_x, layout->facet_y), from = beams->lit.middle * size, lit = beams->lit.size * size;
-  const float2 at = in_cells(layout, receiver, facet->middle + (float2)(map.x * from.x + map.z * from.y, map.y * from.x + map.w * from.y) + beams->slope * way);
+  const float2 size = (float2)(layout->facet_x, layout->facet_y), from = beams->lit.middle * size,
+               lit = beams->lit.size * size;
+  const float2 at = in_cells(
+      layout, receiver,
+      facet->middle + (float2)(map.x * from.x + map.z * from.y, map.y * from.x + map.w * from.y) + beams->slope * way);
   const float2 blur = 12.0f * way * way * variance;
   const float across = map.z * lit.y, down = map.y * lit.x;
   print.x = beam_of(at.x, fabs(map.x) * lit.x / cell.x, sqrt(across * across + blur.x) / cell.x);
@@ -261,7 +289,8 @@ static inline int4 cells_of(global const DeviceLayout* layout, const Footprint* 
                 edge_cell(ceil(print->y.middle + high.y + print->y.reach), layout->cells_y));
 }
 
-// How much of a footprint's light is on each cell of a tile. One beam says it by itself; many are added up, a tile after the other.
+// How much of a footprint's light is on each cell of a tile. One beam says it by itself; many are added up, a tile
+// after the other.
 #if NEPHROID_SPREAD
 #define TILE 8
 #define TILE_ROWS TILE
@@ -276,9 +305,11 @@ static SEPARATE int fill_tile(global const DeviceLayout* layout, const Footprint
     Beam bx = print->x, by = print->y;
     bx.middle += shift.x;
     by.middle += shift.y;
-    for (int y = edge_cell(floor(by.middle - by.reach), TILE), y_end = edge_cell(ceil(by.middle + by.reach), TILE); y < y_end; ++y) {
+    for (int y = edge_cell(floor(by.middle - by.reach), TILE), y_end = edge_cell(ceil(by.middle + by.reach), TILE);
+         y < y_end; ++y) {
       const float part = part_on(by, y) * part_of(layout, print, i);
-      for (int x = edge_cell(floor(bx.middle - bx.reach), TILE), x_end = edge_cell(ceil(bx.middle + bx.reach), TILE); x < x_end; ++x)
+      for (int x = edge_cell(floor(bx.middle - bx.reach), TILE), x_end = edge_cell(ceil(bx.middle + bx.reach), TILE);
+           x < x_end; ++x)
         tile[TILE * y + x] += part * part_on(bx, x);
     }
   }
@@ -297,12 +328,13 @@ static inline int fill_tile(global const DeviceLayout* layout, const Footprint* 
 #define PART_ON(print, tile, x, y) (part_on((print).x, x) * (tile)[0])
 #endif
 
-// For every cell (x, y) that a footprint touches, of a tile that begins at `at`: PART_ON(print, tile, x, y) of its light.
-#define FOR_CELLS(layout, print, tile)                                                                                                     \
-  for (int4 box = cells_of(layout, &(print)), at = box; at.y < box.w; at.y += TILE_ROWS)                                                       \
-    for (at.x = box.x; at.x < box.z; at.x += TILE)                                                                                         \
-      for (int filled = fill_tile(layout, &(print), at.xy, tile); filled; filled = 0)                                                     \
-        for (int y = at.y; y < min(at.y + TILE_ROWS, box.w); ++y)                                                                               \
+// For every cell (x, y) that a footprint touches, of a tile that begins at `at`: PART_ON(print, tile, x, y) of its
+// light.
+#define FOR_CELLS(layout, print, tile)                                                                                 \
+  for (int4 box = cells_of(layout, &(print)), at = box; at.y < box.w; at.y += TILE_ROWS)                               \
+    for (at.x = box.x; at.x < box.z; at.x += TILE)                                                                     \
+      for (int filled = fill_tile(layout, &(print), at.xy, tile); filled; filled = 0)                                  \
+        for (int y = at.y; y < min(at.y + TILE_ROWS, box.w); ++y)                                                      \
           for (int x = at.x; x < min(at.x + TILE, box.z); ++x)
 
 #endif

@@ -20,8 +20,8 @@
 #define MAX_SURFACES 16
 
 // normals: of each triangle, unit, out of the object; w: its PART_*.
-static inline DeviceWayOut follow(global const float* nodes, global const float* blocks, int root, global const float4* normals, float n,
-                                  float3 from, float3 direction)
+static inline DeviceWayOut follow(global const float* nodes, global const float* blocks, int root,
+                                  global const float4* normals, float n, float3 from, float3 direction)
 {
   DeviceWayOut way = {(float4)(0.0f), (float4)(0.0f), 1.0f, 0.0f, 0, 0};
   uint leaves = NEPHROID_NO_PRIMITIVE;
@@ -57,17 +57,22 @@ static inline DeviceWayOut follow(global const float* nodes, global const float*
 }
 
 // Rays one by one, for closed forms.
-__kernel void follow_rays(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals, float n,
-                          __global const float4* from, __global const float4* directions, uint count, __global DeviceWayOut* ways)
+__kernel void follow_rays(__global const float* nodes, __global const float* blocks, int root,
+                          __global const float4* normals, float n, __global const float4* from,
+                          __global const float4* directions, uint count, __global DeviceWayOut* ways)
 {
   const uint i = (uint)get_global_id(0);
   if (i < count) ways[i] = follow(nodes, blocks, root, normals, n, from[i].xyz, directions[i].xyz);
 }
 
 #if NEPHROID_SPREAD
-// Number k of ray i of a facet, 0..1, more evenly spread than random ones: multiples of the powers of 1 / g, g being the root of g^6 = g + 1
-// (Roberts 2018, the golden ratio in five dimensions), from a random begin. In fractions of 2^32, which wrap around.
-static inline float even_number(float begin, uint ray, uint power) { return (float)(((uint)(begin * 0x1p32f) + ray * power) >> 8) * 0x1p-24f; }
+// Number k of ray i of a facet, 0..1, more evenly spread than random ones: multiples of the powers of 1 / g, g being
+// the root of g^6 = g + 1 (Roberts 2018, the golden ratio in five dimensions), from a random begin. In fractions of
+// 2^32, which wrap around.
+static inline float even_number(float begin, uint ray, uint power)
+{
+  return (float)(((uint)(begin * 0x1p32f) + ray * power) >> 8) * 0x1p-24f;
+}
 
 static inline float2 on_circle(float r, float turn)
 {
@@ -89,20 +94,23 @@ static inline void add_fate(global long* fates, uint item, int fate, float light
   add_exactly(fates + FATES * (item % FATE_SUMS) + fate, convert_long_rte(light * RAY_QUANTA));
 }
 
-// Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. parts: of the light's spectrum, as
-// many as rays a facet, index and colour; each ray of a facet takes one. light: [screen][y, x, z][cell].
-__kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals, DeviceFront front,
-                    __global const float4* parts, __global const DeviceReceiver* screens, uint2 seed, uint turn, uint first_row, uint count,
-                    __global long* light, __global long* fates)
+// Rays first .. first + count - 1 of a round: a jittered lattice on each facet, one facet after the other. parts: of
+// the light's spectrum, as many as rays a facet, index and colour; each ray of a facet takes one. light: [screen][y, x,
+// z][cell].
+__kernel void judge(__global const float* nodes, __global const float* blocks, int root, __global const float4* normals,
+                    DeviceFront front, __global const float4* parts, __global const DeviceReceiver* screens, uint2 seed,
+                    uint turn, uint first_row, uint count, __global long* light, __global long* fates)
 {
   const uint item = (uint)get_global_id(0);
   if (item >= count) return;
-  const uint along = (uint)front.along, rays = along * along, facet = first_row * (uint)front.columns + item / rays, ray = item % rays;
+  const uint along = (uint)front.along, rays = along * along, facet = first_row * (uint)front.columns + item / rays,
+             ray = item % rays;
   const uint column = facet % (uint)front.columns, row = facet / (uint)front.columns;
   const float4 random = random4(seed, ray, facet, 4u * turn, STREAM_JUDGE);
   const float2 at = (float2)((float)column + ((float)(ray % along) + random.x) / (float)along,
                              (float)row + ((float)(ray / along) + random.y) / (float)along);
-  const float3 place = (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
+  const float3 place =
+      (float3)(at.x * front.facet_x - 0.5f * front.size_x, 0.5f * front.size_y - at.y * front.facet_y, front.thickness);
   if (front.is_round && length(place.xy / (float2)(front.size_x, front.size_y)) > 0.5f) return;
   float3 direction = front.direction.xyz;
   float part = 1.0f / (float)rays; // of what falls on a facet
@@ -116,16 +124,19 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   float n = front.n;
   float4 colour = (float4)(1.0f);
 #if NEPHROID_SPREAD
-  const float4 begin = random4(seed, 0u, facet, 4u * turn + 1u, STREAM_JUDGE), more = random4(seed, 0u, facet, 4u * turn + 2u, STREAM_JUDGE);
+  const float4 begin = random4(seed, 0u, facet, 4u * turn + 1u, STREAM_JUDGE),
+               more = random4(seed, 0u, facet, 4u * turn + 2u, STREAM_JUDGE);
   if (front.sun_radius > 0.0f)
-    direction = beside(direction, front.sun_radius * on_circle(sqrt(even_number(begin.x, ray, 3785032107u)), even_number(begin.y, ray, 3335640777u)));
+    direction = beside(direction, front.sun_radius * on_circle(sqrt(even_number(begin.x, ray, 3785032107u)),
+                                                               even_number(begin.y, ray, 3335640777u)));
   if (front.part_step > 0u) {
     const float4 drawn = parts[((uint)(more.x * (float)rays) + ray * front.part_step) % rays];
     n = drawn.x;
     colour = drawn.yzww;
   }
 #endif
-  const DeviceWayOut out = follow(nodes, blocks, root, normals, n, place - 1e-3f * front.thickness * direction, direction);
+  const DeviceWayOut out =
+      follow(nodes, blocks, root, normals, n, place - 1e-3f * front.thickness * direction, direction);
   const float counts = part * colour.y, sent = counts * out.part;
   add_fate(fates, item, FATE_REFLECTED, counts * out.reflected);
   if (!(out.part > 0.0f)) {
@@ -137,13 +148,15 @@ __kernel void judge(__global const float* nodes, __global const float* blocks, i
   float2 slope = out.direction.xy / -out.direction.z;
 #if NEPHROID_SPREAD
   if (front.scatter > 0.0f) // two independent normal numbers of two of 0..1 (Box and Muller 1958)
-    slope += front.scatter * on_circle(sqrt(-2.0f * log(1.0f - even_number(begin.z, ray, 2939605023u))), even_number(begin.w, ray, 2590590015u));
+    slope += front.scatter * on_circle(sqrt(-2.0f * log(1.0f - even_number(begin.z, ray, 2939605023u))),
+                                       even_number(begin.w, ray, 2590590015u));
 #endif
   const size_t cells = (size_t)front.cells_x * (size_t)front.cells_y;
   for (int j = 0; j < front.screens; ++j) {
     const DeviceReceiver screen = screens[j];
     const float2 hit = out.from.xy + slope * (screen.distance + out.from.z) - (float2)(screen.x, screen.y);
-    const float x = floor((hit.x + 0.5f * front.receiver_x) / front.cell_x), y = floor((0.5f * front.receiver_y - hit.y) / front.cell_y);
+    const float x = floor((hit.x + 0.5f * front.receiver_x) / front.cell_x),
+                y = floor((0.5f * front.receiver_y - hit.y) / front.cell_y);
     if (!(x >= 0.0f && y >= 0.0f && x < (float)front.cells_x && y < (float)front.cells_y)) continue;
     global long* cell = light + cells * NEPHROID_CHANNELS * (size_t)j + (size_t)y * (size_t)front.cells_x + (size_t)x;
     add_exactly(cell, convert_long_rte(sent * RAY_QUANTA));

@@ -5,8 +5,9 @@
 #include "kernels/tracing/registers.h"
 
 // light: [receiver][cell], to which every facet adds.
-__kernel void add_light(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const DeviceIncoming* incoming,
-                        __global const float* heights, __global const float2* slopes, __global long* light)
+__kernel void add_light(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
+                        __global const DeviceIncoming* incoming, __global const float* heights,
+                        __global const float2* slopes, __global long* light)
 {
   const uint index = (uint)get_global_id(0);
   if (index >= (uint)(layout->columns * layout->rows)) return;
@@ -20,11 +21,12 @@ __kernel void add_light(__global const DeviceLayout* layout, __global const Devi
   }
 }
 
-__kernel void find_lack(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const long* light,
-                        __global const float* wanted, __global float* lack)
+__kernel void find_lack(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
+                        __global const long* light, __global const float* wanted, __global float* lack)
 {
   const uint item = (uint)get_global_id(0), cells = (uint)(layout->cells_x * layout->cells_y);
-  if (item < cells * (uint)layout->receivers) lack[item] = lack_of(light[item], wanted[item], receivers[item / cells].weight);
+  if (item < cells * (uint)layout->receivers)
+    lack[item] = lack_of(light[item], wanted[item], receivers[item / cells].weight);
 }
 
 // How the part of a beam before t falls as its middle moves on: its density there.
@@ -52,8 +54,11 @@ static inline float2 along_lack(global const DeviceLayout* layout, const Footpri
     bx.middle += shift.x;
     by.middle += shift.y;
 #endif
-    const int x_begin = edge_cell(floor(bx.middle - bx.reach), layout->cells_x), x_end = edge_cell(ceil(bx.middle + bx.reach), layout->cells_x);
-    for (int y = edge_cell(floor(by.middle - by.reach), layout->cells_y), y_end = edge_cell(ceil(by.middle + by.reach), layout->cells_y); y < y_end; ++y) {
+    const int x_begin = edge_cell(floor(bx.middle - bx.reach), layout->cells_x),
+              x_end = edge_cell(ceil(bx.middle + bx.reach), layout->cells_x);
+    for (int y = edge_cell(floor(by.middle - by.reach), layout->cells_y),
+             y_end = edge_cell(ceil(by.middle + by.reach), layout->cells_y);
+         y < y_end; ++y) {
       float before = part_before(bx, (float)x_begin), density = density_at(bx, (float)x_begin);
       float2 row = (float2)(0.0f); // by x, and all of it
       for (int x = x_begin; x < x_end; ++x) {
@@ -68,11 +73,13 @@ static inline float2 along_lack(global const DeviceLayout* layout, const Footpri
   return sum;
 }
 
-// Of the weighted squares, by each facet's slope. That its footprint's size and its light change with it too is less than a hundredth of
-// that where a facet is small beside the distances, and left out. Of facets first .. first + count - 1.
-__kernel void find_gradient(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const DeviceIncoming* incoming,
-                            __global const float* heights, __global const float2* slopes, __global const float* lack,
-                            uint first, uint count, __global float2* gradient)
+// Of the weighted squares, by each facet's slope. That its footprint's size and its light change with it too is less
+// than a hundredth of that where a facet is small beside the distances, and left out. Of facets first .. first + count
+// - 1.
+__kernel void find_gradient(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
+                            __global const DeviceIncoming* incoming, __global const float* heights,
+                            __global const float2* slopes, __global const float* lack, uint first, uint count,
+                            __global float2* gradient)
 {
   const uint item = (uint)get_global_id(0), index = first + item;
   if (item >= count) return;

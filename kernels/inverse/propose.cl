@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facets of a batch look for slopes that are worth to be scored exactly: by what lacks about the middle of the light that they would send.
+// Facets of a batch look for slopes that are worth to be scored exactly: by what lacks about the middle of the light
+// that they would send.
 #include "kernels/inverse/search.h"
 #include "kernels/tracing/registers.h"
 
 // A receiver's cells with a rim of one more all around, where nothing lacks.
 static inline size_t rimmed_at(global const DeviceLayout* layout, int receiver, int x, int y)
 {
-  return ((size_t)receiver * (size_t)(layout->cells_y + 2) + (size_t)(y + 1)) * (size_t)(layout->cells_x + 2) + (size_t)(x + 1);
+  return ((size_t)receiver * (size_t)(layout->cells_y + 2) + (size_t)(y + 1)) * (size_t)(layout->cells_x + 2) +
+         (size_t)(x + 1);
 }
 
 // The beam of a flat facet on the middle of cell 0, along one axis.
 static inline Beam flat_beam(global const DeviceLayout* layout, float distance, int axis)
 {
-  const float wide = (axis == 0 ? layout->facet_x : layout->facet_y) * (1.0f + distance * layout->spreads), sun = 0.5f * layout->sun_radius,
+  const float wide = (axis == 0 ? layout->facet_x : layout->facet_y) * (1.0f + distance * layout->spreads),
+              sun = 0.5f * layout->sun_radius,
               blur = distance * sqrt(12.0f * (sun * sun + layout->scatter * layout->scatter));
   const float cell = axis == 0 ? layout->cell_x : layout->cell_y;
   return beam_of(0.5f, wide / cell, blur / cell);
 }
 
-// The mean of the lack under such beams about every cell's middle: what candidates are looked up in, at the nearest cell. First along y, then
-// along x; a row of cells an item.
-__kernel void smear_y(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const float* lack, __global float* along_y)
+// The mean of the lack under such beams about every cell's middle: what candidates are looked up in, at the nearest
+// cell. First along y, then along x; a row of cells an item.
+__kernel void smear_y(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
+                      __global const float* lack, __global float* along_y)
 {
   const int row = (int)get_global_id(0), cells_x = layout->cells_x, cells_y = layout->cells_y;
   if (row >= cells_y * layout->receivers) return;
@@ -35,8 +39,8 @@ __kernel void smear_y(__global const DeviceLayout* layout, __global const Device
     for (int x = 0; x < cells_x; ++x) along_y[x] += part * lack[d * cells_x + x];
   }
 }
-__kernel void smear_x(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers, __global const float* along_y,
-                      __global float* smeared)
+__kernel void smear_x(__global const DeviceLayout* layout, __global const DeviceReceiver* receivers,
+                      __global const float* along_y, __global float* smeared)
 {
   const int row = (int)get_global_id(0), cells_x = layout->cells_x, cells_y = layout->cells_y;
   if (row >= cells_y * layout->receivers) return;
@@ -52,16 +56,20 @@ __kernel void smear_x(__global const DeviceLayout* layout, __global const Device
 }
 
 #define LANES (float8)(0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f)
-#define GATHER(from, i)                                                                                                                   \
-  (float8)((from)[i.s0], (from)[i.s1], (from)[i.s2], (from)[i.s3], (from)[i.s4], (from)[i.s5], (from)[i.s6], (from)[i.s7])
+#define GATHER(from, i)                                                                                                \
+  (float8)((from)[i.s0], (from)[i.s1], (from)[i.s2], (from)[i.s3], (from)[i.s4], (from)[i.s5], (from)[i.s6],           \
+           (from)[i.s7])
 
-// Eight slopes at a time, of which each is the best of those that were tried in its place; infinite: none was reachable.
+// Eight slopes at a time, of which each is the best of those that were tried in its place; infinite: none was
+// reachable.
 typedef struct {
   float8 lowest, x, y;
 } Eight;
 
-// Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where a facet's light falls.
-static SEPARATE void try_lattice(const Search* s, global const float* smeared, float8 x_from, float8 y_from, float2 step, int2 count, Eight* best)
+// Tries slopes on a lattice, `count` across and down from x and y on: by the sum of what lacks where a facet's light
+// falls.
+static SEPARATE void try_lattice(const Search* s, global const float* smeared, float8 x_from, float8 y_from,
+                                 float2 step, int2 count, Eight* best)
 {
   global const DeviceLayout* layout = s->layout;
   SET_ASIDE float8 lowest = best->lowest, best_x = best->x, best_y = best->y, x_begin = x_from, y_begin = y_from;
@@ -75,8 +83,10 @@ static SEPARATE void try_lattice(const Search* s, global const float* smeared, f
       for (int j = 0; j < layout->receivers; ++j) {
         const DeviceReceiver receiver = s->receivers[j];
         const float way = receiver.distance + s->facet.height;
-        const float2 on_axis = in_cells(layout, receiver, s->facet.middle), per_slope = way / (float2)(layout->cell_x, -layout->cell_y);
-        int8 at = (layout->cells_x + 2) * convert_int8(clamp(floor(on_axis.y + per_slope.y * y), -1.0f, (float)layout->cells_y));
+        const float2 on_axis = in_cells(layout, receiver, s->facet.middle),
+                     per_slope = way / (float2)(layout->cell_x, -layout->cell_y);
+        int8 at = (layout->cells_x + 2) *
+                  convert_int8(clamp(floor(on_axis.y + per_slope.y * y), -1.0f, (float)layout->cells_y));
         at += convert_int8(clamp(floor(on_axis.x + per_slope.x * x), -1.0f, (float)layout->cells_x));
         global const float* cells = smeared + rimmed_at(layout, j, 0, 0);
         sum += GATHER(cells, at);
@@ -108,10 +118,10 @@ static SEPARATE void try_lattice(const Search* s, global const float* smeared, f
   best->y = best_y;
 }
 
-// Facet order[first + i] gets eight slopes to try: of the rows part, part + PARTS, ... of its lattice the best of every eighth column, then of
-// the cells about each; of the parts' the better one. x is infinite where none was reachable.
-__kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global const uint* order, uint first, uint count, uint2 seed,
-                      uint sweep, __global float2* candidates)
+// Facet order[first + i] gets eight slopes to try: of the rows part, part + PARTS, ... of its lattice the best of every
+// eighth column, then of the cells about each; of the parts' the better one. x is infinite where none was reachable.
+__kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global const uint* order, uint first,
+                      uint count, uint2 seed, uint sweep, __global float2* candidates)
 {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
@@ -128,9 +138,10 @@ __kernel void propose(SEARCH_ARGUMENTS, __global const float* smeared, __global 
   ROLLED
   for (int part = 0; part < PARTS; ++part) {
     Eight own = {(float8)(INFINITY), (float8)(0.0f), (float8)(0.0f)};
-    try_lattice(&s, smeared, lattice.corner.x + LANES * step.x, (float8)(lattice.corner.y + (float)part * step.y), (float2)(8, PARTS) * step,
-                (int2)(LATTICE / 8, LATTICE / PARTS), &own);
-    try_lattice(&s, smeared, own.x - 0.5f * (step.x - fine_step.x), own.y - 0.5f * (step.y - fine_step.y), fine_step, lattice.fine, &own);
+    try_lattice(&s, smeared, lattice.corner.x + LANES * step.x, (float8)(lattice.corner.y + (float)part * step.y),
+                (float2)(8, PARTS) * step, (int2)(LATTICE / 8, LATTICE / PARTS), &own);
+    try_lattice(&s, smeared, own.x - 0.5f * (step.x - fine_step.x), own.y - 0.5f * (step.y - fine_step.y), fine_step,
+                lattice.fine, &own);
     float there[8], xs[8], ys[8];
     vstore8(own.lowest, 0, there);
     vstore8(own.x, 0, xs);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facets of a batch look for better slopes among the light of the others, all at once. Then they take them, those first that share no cell
-// with a facet before them: so that each gains as much as it would alone.
+// Facets of a batch look for better slopes among the light of the others, all at once. Then they take them, those first
+// that share no cell with a facet before them: so that each gains as much as it would alone.
 #include "kernels/inverse/search.h"
 
 // Refining takes so many steps of one length at most, and halves them until they are this part of a cell.
 #define STEPS 2
 #define FINEST 0.25f
 
-// What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this slope.
+// What the weighted squares would change by, were the facet's light, which counts as taken away, put back with this
+// slope.
 static SEPARATE float score(const Search* s, float2 slope)
 {
   global const DeviceLayout* layout = s->layout;
@@ -21,7 +22,8 @@ static SEPARATE float score(const Search* s, float2 slope)
     const DeviceReceiver receiver = s->receivers[j];
     const float weight = receiver.weight;
     const Footprint print = footprint(layout, &s->facet, &beams, receiver);
-    const float2 away = fabs(slope - s->now.slope) * (receiver.distance + s->facet.height) / (float2)(layout->cell_x, layout->cell_y);
+    const float2 away =
+        fabs(slope - s->now.slope) * (receiver.distance + s->facet.height) / (float2)(layout->cell_x, layout->cell_y);
     const float2 reach = reach_of(&print);
     bool near = away.x < 4.0f * reach.x + 4.0f && away.y < 4.0f * reach.y + 4.0f; // for sure, or it counts little
     Footprint own;
@@ -42,8 +44,9 @@ static SEPARATE float score(const Search* s, float2 slope)
   return sum;
 }
 
-static SEPARATE Search search_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers, global const DeviceIncoming* incoming,
-                               global const float* heights, global const float2* slopes, global const float* lack, float smoothing, uint index)
+static SEPARATE Search search_of(global const DeviceLayout* layout, global const DeviceReceiver* receivers,
+                                 global const DeviceIncoming* incoming, global const float* heights,
+                                 global const float2* slopes, global const float* lack, float smoothing, uint index)
 {
   Search s = {layout, receivers, lack, facet_at(layout, incoming, heights, index)};
   s.now = beams_of(layout, &s.facet, slopes[index]);
@@ -54,8 +57,8 @@ static SEPARATE Search search_of(global const DeviceLayout* layout, global const
 }
 
 // Facet order[first + i] looks for found[i], first among its candidates; done[i]: it has none that is better.
-__kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __global const uint* order, uint first, uint count, uint2 seed,
-                   uint sweep, __global float2* found, __global int* done)
+__kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __global const uint* order, uint first,
+                   uint count, uint2 seed, uint sweep, __global float2* found, __global int* done)
 {
   const uint i = (uint)get_global_id(0);
   if (i >= count) return;
@@ -81,7 +84,8 @@ __kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __glo
     for (int k = 0; k < STEPS; ++k) {
       const float2 middle = from;
       for (int way = 0; way < 4; ++way) {
-        const float2 slope = middle + step * (float2)((float)((way == 0) - (way == 1)), (float)((way == 2) - (way == 3)));
+        const float2 slope =
+            middle + step * (float2)((float)((way == 0) - (way == 1)), (float)((way == 2) - (way == 3)));
         if (!is_reachable(slope, layout->n, s.facet.sines, layout->steepest)) continue;
         const float there = score(&s, slope);
         if (there < lowest) {
@@ -96,14 +100,16 @@ __kernel void improve(SEARCH_ARGUMENTS, __global const float2* candidates, __glo
   done[i] = !(lowest < begin);
 }
 
-static inline void claim_cells(global const DeviceLayout* layout, const Footprint* print, int receiver, global uint* claims, uint key)
+static inline void claim_cells(global const DeviceLayout* layout, const Footprint* print, int receiver,
+                               global uint* claims, uint key)
 {
   const int4 box = cells_of(layout, print);
   for (int y = box.y; y < box.w; ++y)
     for (int x = box.x; x < box.z; ++x) atomic_min(claims + cell_at(layout, receiver, x, y), key);
 }
 
-static SEPARATE bool holds_cells(global const DeviceLayout* layout, const Footprint* print, int receiver, global const uint* claims, uint key)
+static SEPARATE bool holds_cells(global const DeviceLayout* layout, const Footprint* print, int receiver,
+                                 global const uint* claims, uint key)
 {
   const int4 box = cells_of(layout, print);
   for (int y = box.y; y < box.w; ++y)
@@ -112,12 +118,12 @@ static SEPARATE bool holds_cells(global const DeviceLayout* layout, const Footpr
   return true;
 }
 
-// Claims are the cells of all receivers, then the facets where neighbours are to be alike. A key is lower the later the turn and the
-// earlier the facet in its batch, so that claims of turns before count no more.
+// Claims are the cells of all receivers, then the facets where neighbours are to be alike. A key is lower the later the
+// turn and the earlier the facet in its batch, so that claims of turns before count no more.
 #define KEY(turn, i) ((0xFFFFFu - (turn)) << 12 | (i))
 
-__kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, uint count, __global const float2* found, __global const int* done,
-                    __global uint* claims, uint turn)
+__kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, uint count, __global const float2* found,
+                    __global const int* done, __global uint* claims, uint turn)
 {
   const uint i = (uint)get_global_id(0);
   if (i >= count || done[i]) return;
@@ -141,7 +147,8 @@ __kernel void claim(SEARCH_ARGUMENTS, __global const uint* order, uint first, ui
 #endif
 }
 
-static SEPARATE void move_light(global const DeviceLayout* layout, const Footprint* print, float power, int receiver, global long* light)
+static SEPARATE void move_light(global const DeviceLayout* layout, const Footprint* print, float power, int receiver,
+                                global long* light)
 {
   Tile tile;
   FOR_CELLS(layout, *print, tile) {
@@ -150,8 +157,8 @@ static SEPARATE void move_light(global const DeviceLayout* layout, const Footpri
   }
 }
 
-static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprint* print, float weight, int receiver, global const long* light,
-                             global const float* wanted, global float* lack)
+static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprint* print, float weight, int receiver,
+                               global const long* light, global const float* wanted, global float* lack)
 {
   const int4 box = cells_of(layout, print);
   for (int y = box.y; y < box.w; ++y)
@@ -161,9 +168,11 @@ static SEPARATE void note_lack(global const DeviceLayout* layout, const Footprin
     }
 }
 
-// Facets that hold all that they claimed have their cells to themselves. They take what they found if it is better still.
-__kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const uint* order, uint first, uint count,
-                   __global const float2* found, __global int* done, __global const uint* claims, uint turn)
+// Facets that hold all that they claimed have their cells to themselves. They take what they found if it is better
+// still.
+__kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long* light, __global const uint* order,
+                   uint first, uint count, __global const float2* found, __global int* done,
+                   __global const uint* claims, uint turn)
 {
   const uint i = (uint)get_global_id(0);
   if (i >= count || done[i]) return;
@@ -179,7 +188,8 @@ __kernel void take(SEARCH_ARGUMENTS, __global const float* wanted, __global long
   __global const uint* facets = claims + cell_at(layout, layout->receivers, 0, 0);
   const int column = (int)(index % (uint)layout->columns), row = (int)(index / (uint)layout->columns);
   if (facets[index] != key || (column > 0 && facets[index - 1] != key) ||
-      (column + 1 < layout->columns && facets[index + 1] != key) || (row > 0 && facets[index - layout->columns] != key) ||
+      (column + 1 < layout->columns && facets[index + 1] != key) ||
+      (row > 0 && facets[index - layout->columns] != key) ||
       (row + 1 < layout->rows && facets[index + layout->columns] != key))
     return;
 #endif

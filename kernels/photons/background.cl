@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end at the environment.
-// A path through glass has one wavelength, unless all go the same way: then it has all of them.
+// The layer "background": paths from the eye that meet no diffuse surface, straight or through glass and mirrors, end
+// at the environment. A path through glass has one wavelength, unless all go the same way: then it has all of them.
 #include "kernels/tracing/background.h"
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
@@ -11,34 +11,42 @@
 #endif
 
 // XYZ of what a path that has lost some of its light shows of a colour. In single wavelengths, or in all of them.
-static inline float3 shown_after(const World* world, const Background* background, float3 rgb, const Losses* losses, const Band* band)
+static inline float3 shown_after(const World* world, const Background* background, float3 rgb, const Losses* losses,
+                                 const Band* band)
 {
 #if NEPHROID_ONE_WAY
   if (!losses->any) return background_xyz(background, rgb, WAVELENGTH_COUNT);
   float3 xyz = (float3)(0.0f);
-  for (int w = 0; w < WAVELENGTH_COUNT; ++w) xyz += wavelength_left(&world->tables, losses, w) * background_xyz(background, rgb, w);
+  for (int w = 0; w < WAVELENGTH_COUNT; ++w)
+    xyz += wavelength_left(&world->tables, losses, w) * background_xyz(background, rgb, w);
   return xyz;
 #else
-  return wavelength_left(&world->tables, losses, band->wavelength) * band->weight * background_xyz(background, rgb, band->wavelength);
+  return wavelength_left(&world->tables, losses, band->wavelength)
+         * band->weight * background_xyz(background, rgb, band->wavelength);
 #endif
 }
 
 // The XYZ radiance of the environment that a path ends at, which has met `hit`; 0 where it ends elsewhere.
-static inline float3 seen_through(const World* world, const Background* background, Path path, Hit hit, const Band* band, uint2 seed, uint sample,
-                                  uint pixel)
+static inline float3 seen_through(const World* world, const Background* background, Path path, Hit hit,
+                                  const Band* band, uint2 seed, uint sample, uint pixel)
 {
   Surface surface;
-  const float radiance_scale = trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND, false, &surface);
+  const float radiance_scale = trace_to_diffuse(world, &path, &hit, true, band, seed, sample, PATHS_THROUGH_GLASS, pixel,
+                                         STREAM_BACKGROUND, false, &surface);
   if (radiance_scale == 0.0f || hit.primitive != NEPHROID_NO_PRIMITIVE) return (float3)(0.0f);
-  return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses, band);
+  return radiance_scale * shown_after(world, background, background_rgb(background, path.direction), &path.losses,
+                                      band);
 }
 
 // samples: [count]: of which pixel, and its number there. enough: of limit_of_sample.
-__kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_xyz, DeviceBackground size,
+__kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global const float4* primary_xyz,
+                         DeviceBackground size,
                          __global const int* wavelengths,    // 0, 1, ..., 400
                          __global const float* spectrum_cdf, // [401]: which wavelength a path through glass has
-                         volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                         DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough, float film_scale, float film_limit)
+                         volatile __global long* film,
+                         volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
+                         DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
+                         float film_scale, float film_limit)
 {
   const World world = WORLD;
   const Background background = {texels, primary_xyz, size};
@@ -59,9 +67,11 @@ __kernel void background(WORLD_ARGUMENTS, __global const float* texels, __global
     for (uint i = 0; i < PATHS_THROUGH_GLASS; ++i) {
       const float place = golden_place(seed, frame, i, PATHS_THROUGH_GLASS, pixel, STREAM_BACKGROUND_WAVELENGTH);
       const Band band = wavelength_of_cluster(0, wavelengths, spectrum_cdf, WAVELENGTH_COUNT, place);
-      xyz += seen_through(&world, &background, path, hit, &band, seed, frame * PATHS_THROUGH_GLASS + i, pixel) / (float)PATHS_THROUGH_GLASS;
+      xyz += seen_through(&world, &background, path, hit, &band, seed, frame * PATHS_THROUGH_GLASS + i, pixel) /
+             (float)PATHS_THROUGH_GLASS;
     }
   const float limit = limit_of_sample(frame, enough, film_limit);
-  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit, jitter.z))
+  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit,
+                         jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, lit there by what of each light
-// arrives unbent. Glass and mirrors block those shadow rays: what they let through is the caustic layer's.
+// The direct layer: paths from the eye, through glass and mirrors, to the first diffuse surface, lit there by what of
+// each light arrives unbent. Glass and mirrors block those shadow rays: what they let through is the caustic layer's.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 
 // XYZ radiance that a diffuse surface sends back along the path.
-IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector, const Band* band,
-                      __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
+IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surface, uint triangle, int reflector,
+                      const Band* band, __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
 {
   SET_ASIDE float3 xyz = (float3)(0.0f);
   const uint paths = band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS;
@@ -30,23 +30,29 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
   return xyz;
 }
 
-// Takes a path that has hit `first` on through glass and mirrors in one band. Returns XYZ radiance of that band's light alone.
-IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band, __global const float4* reflected_xyz_all, uint2 seed,
-                       uint sample, uint pixel)
+// Takes a path that has hit `first` on through glass and mirrors in one band. Returns XYZ radiance of that band's light
+// alone.
+IN_PLACE float3 follow(const World* world, Path path, Hit first, const Band* band,
+                       __global const float4* reflected_xyz_all, uint2 seed, uint sample, uint pixel)
 {
   Surface surface;
-  const float radiance_scale = reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel, STREAM_CAMERA, &surface);
+  const float radiance_scale =
+      reach_diffuse(world, &path, &first, band, seed, sample, band->cluster < 0 ? 1u : PATHS_THROUGH_GLASS, pixel,
+                    STREAM_CAMERA, &surface);
   if (radiance_scale == 0.0f) return (float3)(0.0f);
   const int reflector = material_of(world, surface.object).reflector;
-  return radiance_scale * shade(world, &path, &surface, first.primitive, reflector, band, reflected_xyz_all, seed, sample, pixel);
+  return radiance_scale *
+         shade(world, &path, &surface, first.primitive, reflector, band, reflected_xyz_all, seed, sample, pixel);
 }
 
 // samples: [count]: of which pixel, and its number there. enough: of limit_of_sample.
-__kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, // [light][reflector]: reflected_xyz over all clusters
-                     __global const float* cluster_cdf,                         // [cluster + 1]: which cluster a path through glass takes
-                     volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
-                     DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough, float film_scale,
-                     float film_limit)
+__kernel void direct(WORLD_ARGUMENTS,
+                     __global const float4* reflected_xyz_all, // [light][reflector]: reflected_xyz over all clusters
+                     __global const float* cluster_cdf, // [cluster + 1]: which cluster a path through glass takes
+                     volatile __global long* film,
+                     volatile __global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
+                     DeviceCamera camera, uint2 seed, __global const uint2* samples, uint count, uint enough,
+                     float film_scale, float film_limit)
 {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
@@ -59,7 +65,8 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
   const Hit hit = next_hit(&world, &path);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return;
 
-  // One call of follow() for both cases: half the code, and Intel's vectoriser gets two of them wrong (docs/checking.md).
+  // One call of follow() for both cases: half the code, and Intel's vectoriser gets two of them wrong
+  // (docs/checking.md).
   const bool unbent = is_unbent(&world, &camera, &hit);
   const uint paths = unbent ? 1u : PATHS_THROUGH_GLASS;
   SET_ASIDE float3 xyz = (float3)(0.0f), outwards = path.direction;
@@ -70,13 +77,16 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float4* reflected_xyz_all, 
     Band band = whole_cluster(-1);
     SET_ASIDE float probability = 1.0f;
     if (!unbent) {
-      const int cluster = choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, paths, pixel, STREAM_CAMERA_CLUSTER);
+      const int cluster =
+          choose_cluster(cluster_cdf, scene.cluster_count, seed, frame, i, paths, pixel, STREAM_CAMERA_CLUSTER);
       probability = (cluster_cdf[cluster + 1] - cluster_cdf[cluster]) * (float)paths;
-      band = choose_band(&world, scene.light_count, cluster, random4(seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
+      band =
+          choose_band(&world, scene.light_count, cluster, random4(seed, sample, pixel, 0u, STREAM_CAMERA_WAVELENGTH).x);
     }
     xyz += follow(&world, way, first, &band, reflected_xyz_all, seed, sample, pixel) / probability;
   }
   const float limit = limit_of_sample(frame, enough, film_limit);
-  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit, jitter.z))
+  if (!film_add_dithered(film_of_iteration(film, frame, camera.width * camera.height), (int)pixel, xyz, film_scale, limit,
+                         jitter.z))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What photons near a visible point add to its pixel: as one sample of the film, or to the pixel's progressive statistics.
+// What photons near a visible point add to its pixel: as one sample of the film, or to the pixel's progressive
+// statistics.
 //
-// A photon carries the flux F that arrives, times the reflectance, as XYZ. On a surface of area A it adds F / A to the exitance, of which a
-// Lambertian surface sends 1 / pi per steradian and projected area. The photons within r of a point of a plane lie on A = pi r^2, so
+// A photon carries the flux F that arrives, times the reflectance, as XYZ. On a surface of area A it adds F / A to the
+// exitance, of which a Lambertian surface sends 1 / pi per steradian and projected area. The photons within r of a
+// point of a plane lie on A = pi r^2, so
 //   L = sum of F / (pi * pi r^2),
 // and what reaches the eye is L times the path's throughput.
 #include "kernels/tracing/film.h"
 #include "kernels/photons/photon_map.h"
 
-// points: see view.cl, of pixels[first] and those after it. picture: how many pixels it has. radius: the same for all. film_per_quantum: film quanta of radiance per quantum of a
-// photon, with the 1 / (pi^2 r^2) of above, r in metres.
+// points: see view.cl, of pixels[first] and those after it. picture: how many pixels it has. radius: the same for all.
+// film_per_quantum: film quanta of radiance per quantum of a photon, with the 1 / (pi^2 r^2) of above, r in metres.
 kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, volatile global long* film,
                            volatile global long* energy, // [OUTCOME_COUNT]: only refused ones are counted
                            __global const uint* pixels, uint picture, uint pass, uint first, uint count, float radius,
@@ -23,16 +25,19 @@ kernel void gather_to_film(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* poin
   const Gathered gathered = gather_photons(&map, point.position.xyz, point.normal.xyz, point.group, radius);
   if (gathered.count == 0) return;
   const float3 xyz = convert_float3(gathered.xyz) * point.throughput.xyz;
-  if (!film_add_dithered(film_of_iteration(film, pass, (int)picture), (int)pixels[first + i], xyz, film_per_quantum, FILM_LIMIT, point.position.w))
+  if (!film_add_dithered(film_of_iteration(film, pass, (int)picture), (int)pixels[first + i], xyz, film_per_quantum,
+                         FILM_LIMIT, point.position.w))
     add_exactly(energy + OUTCOME_REFUSED, 1);
 }
 
-// One iteration of Hachisuka and Jensen (2009), "Stochastic Progressive Photon Mapping", with the statistics of the pixel in one cluster: of
-// M photons within the radius R, alpha M are added to the N there are, and R shrinks so that the density stays:
+// One iteration of Hachisuka and Jensen (2009), "Stochastic Progressive Photon Mapping", with the statistics of the
+// pixel in one cluster: of M photons within the radius R, alpha M are added to the N there are, and R shrinks so that
+// the density stays:
 //   N' = N + alpha M,  R'^2 = R^2 N' / (N + M),  flux' = (flux + F) R'^2 / R^2.
 // The places that a pixel sees share them. unit: power of a quantum.
-kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points, global PixelStatistics* statistics,
-                                 uint first_pixel, uint count, float alpha, float unit)
+kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint* points,
+                                 global PixelStatistics* statistics, uint first_pixel, uint count, float alpha,
+                                 float unit)
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
@@ -40,7 +45,8 @@ kernel void gather_to_statistics(PHOTON_MAP_ARGUMENTS, global const VisiblePoint
   if (point.group == NO_PHOTON) return;
   const PhotonMap map = PHOTON_MAP;
   PixelStatistics pixel = statistics[first_pixel + i];
-  const Gathered gathered = gather_photons(&map, point.position.xyz, point.normal.xyz, point.group, sqrt(pixel.radius2));
+  const Gathered gathered =
+      gather_photons(&map, point.position.xyz, point.normal.xyz, point.group, sqrt(pixel.radius2));
   if (gathered.count == 0) return;
   const float found = (float)gathered.count, kept = pixel.count + alpha * found, shrink = kept / (pixel.count + found);
   const float3 flux = convert_float3(gathered.xyz) * point.throughput.xyz * unit;
@@ -60,10 +66,10 @@ kernel void start_statistics(global PixelStatistics* statistics, uint pixels, fl
   statistics[i] = start;
 }
 
-// Adds the radiance of a cluster: flux / (pi^2 R^2) over its iterations, of which pixels before `split` have had others than those after.
-// per_iteration_*: 1 / (pi^2 iterations m^2), m metres a unit of length; 0 for no iterations.
-kernel void add_radiance(global const PixelStatistics* statistics, global float* xyz, uint pixels, uint split, float per_iteration_before,
-                         float per_iteration_after)
+// Adds the radiance of a cluster: flux / (pi^2 R^2) over its iterations, of which pixels before `split` have had others
+// than those after. per_iteration_*: 1 / (pi^2 iterations m^2), m metres a unit of length; 0 for no iterations.
+kernel void add_radiance(global const PixelStatistics* statistics, global float* xyz, uint pixels, uint split,
+                         float per_iteration_before, float per_iteration_after)
 {
   const uint i = get_global_id(0);
   if (i >= pixels) return;

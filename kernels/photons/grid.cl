@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts photons into the buckets of photon_map.h by counting: count_photons, sum_blocks, scan_blocks, scatter_photons, in this order.
+// Sorts photons into the buckets of photon_map.h by counting: count_photons, sum_blocks, scan_blocks, scatter_photons,
+// in this order.
 #include "kernels/photons/photon_map.h"
 
 // The buckets are added up in this many blocks, one a work item.
@@ -9,7 +10,8 @@
 
 static inline uint photon_bucket(const StoredPhoton* photon, int3 cell, uint mask)
 {
-  return grid_block_bucket(photon->group, cell.x >> GRID_BLOCK_BITS, cell.y, cell.z, mask) + (uint)(cell.x & (GRID_BLOCK - 1));
+  return grid_block_bucket(photon->group, cell.x >> GRID_BLOCK_BITS, cell.y, cell.z, mask) +
+         (uint)(cell.x & (GRID_BLOCK - 1));
 }
 
 static inline int3 cell_of_photon(const StoredPhoton* photon, float inverse_cell)
@@ -56,8 +58,8 @@ kernel void scan_blocks(global uint* counts, global const uint* sums, PhotonGrid
 }
 
 // ends: of the buckets; turns them into where they start. No key fits the eight photons beyond the last.
-kernel void scatter_photons(global const StoredPhoton* stored, volatile global uint* ends, global float* positions, global int* values,
-                            PhotonGrid grid, uint slots)
+kernel void scatter_photons(global const StoredPhoton* stored, volatile global uint* ends, global float* positions,
+                            global int* values, PhotonGrid grid, uint slots)
 {
   const uint i = get_global_id(0);
   if (i < 8) values[ends[bucket_count(grid)] + i] = NO_PHOTON;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons leave a light mostly where earlier ones have mattered: the three numbers that a photon's direction is made of (emission.h: target
-// and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly, and the photon counts as much less as it comes more often
-// (importance sampling in the space of random numbers, as in Lepage 1978, "A new algorithm for adaptive multidimensional integration").
-// app/spectral/effort/emitters.h says how the histogram is learned.
+// Photons leave a light mostly where earlier ones have mattered: the three numbers that a photon's direction is made of
+// (emission.h: target and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly, and the photon
+// counts as much less as it comes more often (importance sampling in the space of random numbers, as in Lepage 1978, "A
+// new algorithm for adaptive multidimensional integration"). app/spectral/effort/emitters.h says how the histogram is
+// learned.
 #ifndef NEPHROID_GUIDE_H
 #define NEPHROID_GUIDE_H
 
@@ -14,8 +15,8 @@ typedef struct {
   uint cell;     // of the histogram
 } Guided;
 
-// Draws one of `count` bins and a place in it: *number in [0, 1) becomes another number in [0, 1). cdf: exact_cdf of the bins. Returns the
-// bin.
+// Draws one of `count` bins and a place in it: *number in [0, 1) becomes another number in [0, 1). cdf: exact_cdf of
+// the bins. Returns the bin.
 static inline int draw_bin(__global const float* cdf, int count, float* number, float* density)
 {
   const int bin = choose(cdf, count, *number);
@@ -26,8 +27,8 @@ static inline int draw_bin(__global const float* cdf, int count, float* number, 
   return bin;
 }
 
-// numbers: xyz of a photon's emission. guide: of its light, GUIDE_FLOATS: cdfs of the first number, of the second given the first, of the
-// third given both.
+// numbers: xyz of a photon's emission. guide: of its light, GUIDE_FLOATS: cdfs of the first number, of the second given
+// the first, of the third given both.
 static inline Guided guide_numbers(__global const float* guide, float4* numbers)
 {
   Guided guided = {1.0f, 0u};
@@ -36,10 +37,12 @@ static inline Guided guide_numbers(__global const float* guide, float4* numbers)
   const int i = draw_bin(guide, GUIDE_BINS_X, &number, &guided.density);
   moved.x = number;
   number = moved.y;
-  const int j = i * GUIDE_BINS_Y + draw_bin(guide + GUIDE_BINS_X + i * GUIDE_BINS_Y, GUIDE_BINS_Y, &number, &guided.density);
+  const int j =
+      i * GUIDE_BINS_Y + draw_bin(guide + GUIDE_BINS_X + i * GUIDE_BINS_Y, GUIDE_BINS_Y, &number, &guided.density);
   moved.y = number;
   number = moved.z;
-  const int k = draw_bin(guide + GUIDE_BINS_X + GUIDE_BINS_X * GUIDE_BINS_Y + j * GUIDE_BINS_Z, GUIDE_BINS_Z, &number, &guided.density);
+  const int k = draw_bin(guide + GUIDE_BINS_X + GUIDE_BINS_X * GUIDE_BINS_Y + j * GUIDE_BINS_Z, GUIDE_BINS_Z, &number,
+                         &guided.density);
   moved.z = number;
   numbers->xyz = moved;
   guided.cell = (uint)(j * GUIDE_BINS_Z + k);

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the lights everywhere,
-// are bent by glass and mirrors and sent on by diffuse surfaces; from the second diffuse surface on, each adds to the pixel that sees it.
-// What a photon carries changes by absorption alone: Fresnel's reflectance, and the reflectance of a diffuse surface, decide by chance.
+// The layer "indirect": light that met a diffuse surface before the last one. Photons of one wavelength each leave the
+// lights everywhere, are bent by glass and mirrors and sent on by diffuse surfaces; from the second diffuse surface on,
+// each adds to the pixel that sees it. What a photon carries changes by absorption alone: Fresnel's reflectance, and
+// the reflectance of a diffuse surface, decide by chance.
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 
-// A photon of any direction that the light shines in. everything: one target, about the scene and the lights. An area light sends the same
-// power along every cosine-distributed direction; what emit() does, where directions are uniform, would be noisier.
-static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything, const DeviceScene* scene, float4 random,
-                                       float2 place)
+// A photon of any direction that the light shines in. everything: one target, about the scene and the lights. An area
+// light sends the same power along every cosine-distributed direction; what emit() does, where directions are uniform,
+// would be noisier.
+static inline Emission emit_everywhere(DeviceLight light, __global const DeviceTarget* everything,
+                                       const DeviceScene* scene, float4 random, float2 place)
 {
   if (is_light(&light, LIGHT_AREA)) {
-    const Emission emission = {area_point(&light, place), cosine_direction(light.direction.xyz, random.y, random.z), 0.0f, light.radiometric};
+    const Emission emission = {area_point(&light, place), cosine_direction(light.direction.xyz, random.y, random.z),
+                               0.0f, light.radiometric};
     return emission;
   }
   light.first_target = 0;
@@ -49,8 +52,8 @@ static inline Source light_of(const Photon* photon)
 }
 
 // Adds what a diffuse surface reflects of a photon to the pixel that sees it. False where the film refused it.
-static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface, uint triangle,
-                        int reflector, float dither)
+static inline bool show(const World* world, const Receiver* receiver, const Photon* photon, const Surface* surface,
+                        uint triangle, int reflector, float dither)
 {
   const Splat splat = splat_at(world, &receiver->camera, surface, triangle, photon->path.direction);
   if (splat.pixel < 0) return true;
@@ -61,7 +64,8 @@ static inline bool show(const World* world, const Receiver* receiver, const Phot
 }
 
 // Follows a photon to its end: OUTCOME_*. What the film refuses is counted.
-static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint iteration, uint number, Outcomes outcomes)
+static inline int follow_photon(const World* world, const Receiver* receiver, Photon* photon, uint2 seed, uint iteration,
+                                uint number, Outcomes outcomes)
 {
   Path* path = &photon->path;
   bool met_diffuse = false;
@@ -74,10 +78,12 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     const float4 random = random4(seed, iteration, number, 2u + (uint)surface_number, STREAM_INDIRECT);
     const Band band = band_of(photon);
     if (material.type == MATERIAL_DIFFUSE) {
-      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w)) add_outcome(outcomes, OUTCOME_REFUSED, 1);
+      if (met_diffuse && !show(world, receiver, photon, &surface, hit.primitive, material.reflector, random.w))
+        add_outcome(outcomes, OUTCOME_REFUSED, 1);
       met_diffuse = true;
       photon->shading *= shading_ratio(&surface, path->direction);
-      if (random.x >= world->tables.reflectance[material.reflector * WAVELENGTH_COUNT + band.wavelength]) return OUTCOME_ABSORBED;
+      if (random.x >= world->tables.reflectance[material.reflector * WAVELENGTH_COUNT + band.wavelength])
+        return OUTCOME_ABSORBED;
       const float side = dot(path->direction, surface.geometric) < 0.0f ? 1.0f : -1.0f;
       path->direction = cosine_direction(side * surface.geometric, random.y, random.z);
       path->origin = start_on_side(&surface, side);
@@ -86,17 +92,21 @@ static inline int follow_photon(const World* world, const Receiver* receiver, Ph
     }
     if (surface_number == world->scene.max_surfaces) return OUTCOME_LOST;
     float n_ratio;
-    if (material.type != MATERIAL_DIFFUSE && !bend_path(world, path, hit.primitive, &surface, &material, &band, random.x, &n_ratio))
+    if (material.type != MATERIAL_DIFFUSE &&
+        !bend_path(world, path, hit.primitive, &surface, &material, &band, random.x, &n_ratio))
       return OUTCOME_LOST;
   }
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. emitters: one for each light that has photons.
-__kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global const DeviceEmitter* emitters, int emitter_count,
-                       __global const float* spectrum_cdf, // [light][member of all clusters]: which wavelength a photon has
-                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                       DeviceCamera camera, uint2 seed, uint iteration, uint offset, uint stride, uint count, float outside_distance,
-                       float film_scale, float energy_scale)
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. emitters: one for each light that
+// has photons.
+__kernel void
+indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything, __global const DeviceEmitter* emitters,
+         int emitter_count,
+         __global const float* spectrum_cdf, // [light][member of all clusters]: which wavelength a photon has
+         volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
+         DeviceCamera camera, uint2 seed, uint iteration, uint offset, uint stride, uint count, float outside_distance,
+         float film_scale, float energy_scale)
 {
   scene.outside_distance = outside_distance;
   const World world = WORLD;
@@ -114,14 +124,16 @@ __kernel void indirect(WORLD_ARGUMENTS, __global const DeviceTarget* everything,
     const Source source = source_of(&world, emitter.light, place, &light);
     const Emission emission = emit_everywhere(light, everything, &scene, random, place);
     if (emission.watts == 0.0f) continue;
-    const Band band = wavelength_of_cluster(0, cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w);
-    Photon photon = {{emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind},
-                     1.0f,
-                     emission.watts / (float)emitter.photon_count,
-                     band.wavelength,
-                     band.weight,
-                     source.light,
-                     source.rgb};
+    const Band band =
+        wavelength_of_cluster(0, cluster_wavelengths, spectrum_cdf + emitter.light * members, members, random.w);
+    Photon photon = {
+        {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind},
+        1.0f,
+        emission.watts / (float)emitter.photon_count,
+        band.wavelength,
+        band.weight,
+        source.light,
+        source.rgb};
     const int outcome = follow_photon(&world, &receiver, &photon, seed, iteration, number, outcomes);
     const Band end = band_of(&photon);
     count_photon(outcomes, outcome, photon.watts * band_share(&world, light_of(&photon), &end, 0.0f) * energy_scale,

@@ -10,7 +10,8 @@ namespace nephroid::shared {
 // Cells of one reflector come in blocks of so many.
 #define LAYER_BLOCK 64
 
-// What kernels/photons/relight_direct.cl looks at in each pixel before the first pass: fixed places, and paths of each through glass.
+// What kernels/photons/relight_direct.cl looks at in each pixel before the first pass: fixed places, and paths of each
+// through glass.
 #define SURVEY_PLACES 4
 #define SURVEY_PATHS 2
 

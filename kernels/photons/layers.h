@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of scalars, from which the picture of any light is a weighted sum. A layer is the light of one lamp in one wavelength cluster (or
-// in all wavelengths, where nothing is bent), as if the layer had 1 W (directional light: 1 W m^-2) and every surface were white. So that
-// a surface's reflectance can be multiplied later, a pixel has a cell for each reflector that it sees: most have one, those at an edge two.
-// Sums are 64-bit fixed point: [block of LAYER_BLOCK cells][half][layer][cell of the block], so that weighing reads one stretch of memory.
+// A film of scalars, from which the picture of any light is a weighted sum. A layer is the light of one lamp in one
+// wavelength cluster (or in all wavelengths, where nothing is bent), as if the layer had 1 W (directional light: 1 W
+// m^-2) and every surface were white. So that a surface's reflectance can be multiplied later, a pixel has a cell for
+// each reflector that it sees: most have one, those at an edge two. Sums are 64-bit fixed point: [block of LAYER_BLOCK
+// cells][half][layer][cell of the block], so that weighing reads one stretch of memory.
 #ifndef NEPHROID_LAYERS_H
 #define NEPHROID_LAYERS_H
 
@@ -18,20 +19,22 @@ typedef struct {
   int image;                         // of the film, that this pass adds to
 } LayerFilm;
 
-#define LAYER_FILM_ARGUMENTS(name)                                                                                                       \
-  __global const int *name##_first, __global const LayerCell *name##_cells, volatile __global long *name##_sums, int name##_layer_count
-#define LAYER_FILM(name, pass)                                                                                                           \
-  {                                                                                                                                      \
-    name##_first, name##_cells, name##_sums, name##_layer_count, (int)((pass) % NEPHROID_FILM_HALVES)                                    \
+#define LAYER_FILM_ARGUMENTS(name)                                                                                     \
+  __global const int *name##_first, __global const LayerCell *name##_cells, volatile __global long *name##_sums,       \
+      int name##_layer_count
+#define LAYER_FILM(name, pass)                                                                                         \
+  {                                                                                                                    \
+    name##_first, name##_cells, name##_sums, name##_layer_count, (int)((pass) % NEPHROID_FILM_HALVES)                  \
   }
 
 static inline bool has_cells(const LayerFilm* film, int pixel) { return film->first[pixel] < film->first[pixel + 1]; }
 
-// Adds value * scale to a layer where the pixel sees the reflector. The pixel's survey may have missed that: then the light goes to the
-// reflector that it sees most, in the ratio of their mean reflectances in the layer's wavelengths (mean_reflectance: [reflector]), which is
-// right but for how they differ within those. The pixel has cells. dither and what is returned: as film_add_dithered.
-static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, int layer, float value, float scale, float limit,
-                             __global const float* mean_reflectance, float dither)
+// Adds value * scale to a layer where the pixel sees the reflector. The pixel's survey may have missed that: then the
+// light goes to the reflector that it sees most, in the ratio of their mean reflectances in the layer's wavelengths
+// (mean_reflectance: [reflector]), which is right but for how they differ within those. The pixel has cells. dither and
+// what is returned: as film_add_dithered.
+static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, int layer, float value, float scale,
+                             float limit, __global const float* mean_reflectance, float dither)
 {
   const int begin = film->first[pixel], end = film->first[pixel + 1];
   int i = begin;
@@ -44,7 +47,8 @@ static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, in
   }
   if (!(fabs(quanta) <= limit)) return false;
   const int cell = film->cells[i].cell;
-  const size_t row = (size_t)(cell / LAYER_BLOCK) * NEPHROID_FILM_HALVES * (size_t)film->layer_count + (size_t)(film->image * film->layer_count + layer);
+  const size_t row = (size_t)(cell / LAYER_BLOCK) * NEPHROID_FILM_HALVES * (size_t)film->layer_count +
+                     (size_t)(film->image * film->layer_count + layer);
   add_exactly(film->sums + row * LAYER_BLOCK + cell % LAYER_BLOCK, convert_long_rte(quanta + (dither - 0.5f)));
   return true;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bands of the paths of a pass in a cluster. Photons and paths from the eye that meet on a surface have to be of one wavelength
-// each: where they jitter, a cluster has NEPHROID_PASS_BANDS wavelengths a pass, one from each part of it, and what meets is of one part.
+// The bands of the paths of a pass in a cluster. Photons and paths from the eye that meet on a surface have to be of
+// one wavelength each: where they jitter, a cluster has NEPHROID_PASS_BANDS wavelengths a pass, one from each part of
+// it, and what meets is of one part.
 #ifndef NEPHROID_PASS_BAND_H
 #define NEPHROID_PASS_BAND_H
 

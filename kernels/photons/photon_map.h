@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hash grid over photons on surfaces, and the sum over those near a point.
 //
-// The grid has no bounds. Space is cut into cubic cells, and a row of cells along x into blocks of 32. The bucket of cell (ix, iy, iz) of a
-// group is hash(group, ix / 32, iy, iz) + ix % 32: the cells of a block are neighbours in memory too, so a search reads a row as one run of
-// sorted photons, or as two. What shares buckets by accident is told apart by a photon's key: its group and the low bits of its block and
-// row. As long as a search spans fewer blocks and rows than those bits count, no two of its runs look for the same key, so no photon
-// counts twice, and a run may read beyond its end. Photons with the same key from elsewhere are too far away.
+// The grid has no bounds. Space is cut into cubic cells, and a row of cells along x into blocks of 32. The bucket of
+// cell (ix, iy, iz) of a group is hash(group, ix / 32, iy, iz) + ix % 32: the cells of a block are neighbours in memory
+// too, so a search reads a row as one run of sorted photons, or as two. What shares buckets by accident is told apart
+// by a photon's key: its group and the low bits of its block and row. As long as a search spans fewer blocks and rows
+// than those bits count, no two of its runs look for the same key, so no photon counts twice, and a run may read beyond
+// its end. Photons with the same key from elsewhere are too far away.
 //
-// Powers are whole numbers of quanta, so a sum does not depend on the order in which photons of a bucket were sorted, which is that of
-// atomic operations.
+// Powers are whole numbers of quanta, so a sum does not depend on the order in which photons of a bucket were sorted,
+// which is that of atomic operations.
 #ifndef NEPHROID_PHOTON_MAP_H
 #define NEPHROID_PHOTON_MAP_H
 
@@ -18,15 +19,20 @@
 #define GRID_ROWS 8
 #define GRID_KEY_BITS 7 // one of the block, three of each coordinate of the row
 
-// The side of an object's surface that light in `cluster` arrives at: light does not leak to other objects or through a sheet.
+// The side of an object's surface that light in `cluster` arrives at: light does not leak to other objects or through a
+// sheet.
 static inline int photon_group(int object, bool front, int cluster, int object_count)
 {
   return (cluster * object_count + object) * 2 + (front ? 1 : 0);
 }
 
-static inline int3 grid_cell(float3 position, float inverse_cell) { return convert_int3_sat_rtn(position * inverse_cell); }
+static inline int3 grid_cell(float3 position, float inverse_cell)
+{
+  return convert_int3_sat_rtn(position * inverse_cell);
+}
 
-// The first bucket of a block of cells, ix from a multiple of GRID_BLOCK on. The finalizer of MurmurHash3 (Appleby 2011) mixes odd multiples.
+// The first bucket of a block of cells, ix from a multiple of GRID_BLOCK on. The finalizer of MurmurHash3 (Appleby
+// 2011) mixes odd multiples.
 static inline uint grid_block_bucket(int group, int block, int iy, int iz, uint mask)
 {
   uint h = (uint)group * 0x9E3779B1u ^ (uint)block * 0x27D4EB2Fu ^ (uint)iy * 0x85EBCA77u ^ (uint)iz * 0xC2B2AE3Du;
@@ -40,7 +46,8 @@ static inline int grid_key(int group, int block, int iy, int iz)
   return group << GRID_KEY_BITS | (block & 1) << 6 | (iy & (GRID_ROWS - 1)) << 3 | (iz & (GRID_ROWS - 1));
 }
 
-// Sorted photons: x, y, z one array after the other, and so key, X, Y, Z. starts[b] is the first photon of bucket b; one more at the end.
+// Sorted photons: x, y, z one array after the other, and so key, X, Y, Z. starts[b] is the first photon of bucket b;
+// one more at the end.
 typedef struct {
   __global const uint* starts;
   __global const float* positions;
@@ -49,8 +56,9 @@ typedef struct {
 } PhotonMap;
 
 // The buffers that a PhotonMap is made of, as kernel arguments.
-#define PHOTON_MAP_ARGUMENTS                                                                                                             \
-  __global const uint *starts, __global const float *sorted_positions, __global const int *sorted_values, PhotonGrid grid
+#define PHOTON_MAP_ARGUMENTS                                                                                           \
+  __global const uint *starts, __global const float *sorted_positions, __global const int *sorted_values,              \
+      PhotonGrid grid
 #define PHOTON_MAP {starts, sorted_positions, sorted_values, grid}
 
 typedef struct {
@@ -103,7 +111,8 @@ static inline void gather_run(const PhotonMap* map, uint begin, uint end, int ke
       const float8 dy = vload8(0, map->positions + stride + begin) - g->position.y;
       const float8 dz = vload8(0, map->positions + 2 * stride + begin) - g->position.z;
       const float8 tilted = dx * g->tilt.x + dy * g->tilt.y + dz * g->tilt.z;
-      const int8 near = (dx * dx + dy * dy + dz * dz + tilted * tilted < g->radius2) & (vload8(0, map->values + begin) == key);
+      const int8 near =
+          (dx * dx + dy * dy + dz * dz + tilted * tilted < g->radius2) & (vload8(0, map->values + begin) == key);
       sum_x += vload8(0, map->values + stride + begin) & near;
       sum_y += vload8(0, map->values + 2 * stride + begin) & near;
       sum_z += vload8(0, map->values + 3 * stride + begin) & near;
@@ -117,9 +126,9 @@ static inline void gather_run(const PhotonMap* map, uint begin, uint end, int ke
   }
 }
 
-// The photons of a group in a flat spheroid about a point of a surface, d^2 + 16 (d . n)^2 < r^2: as wide as the radius in the tangent
-// plane, a quarter of that along the normal, so that what lies around an object's corner does not count. radius: at most 3 cells. The
-// kernel is constant: photons count in full.
+// The photons of a group in a flat spheroid about a point of a surface, d^2 + 16 (d . n)^2 < r^2: as wide as the radius
+// in the tangent plane, a quarter of that along the normal, so that what lies around an object's corner does not count.
+// radius: at most 3 cells. The kernel is constant: photons count in full.
 static inline Gathered gather_photons(const PhotonMap* map, float3 position, float3 normal, int group, float radius)
 {
   Gathering g;
@@ -130,10 +139,12 @@ static inline Gathered gather_photons(const PhotonMap* map, float3 position, flo
   g.steps = 0;
   g.sum.xyz = (long3)(0);
   g.sum.count = 0;
-  // The spheroid's bounding box: with M = 1 + 16 n n^T it is d^T M d < r^2, and reaches r sqrt((M^-1)_aa) along axis a. A little is added, so that
-  // it holds every photon that passes the test, however that is rounded: what a run reads beyond its cells never counts.
+  // The spheroid's bounding box: with M = 1 + 16 n n^T it is d^T M d < r^2, and reaches r sqrt((M^-1)_aa) along axis a.
+  // A little is added, so that it holds every photon that passes the test, however that is rounded: what a run reads
+  // beyond its cells never counts.
   const float3 reach = radius * 1.000001f * sqrt(1.0f - 16.0f / 17.0f * normal * normal) + fabs(position) * 0x1p-22f;
-  const int3 low = grid_cell(position - reach, map->grid.inverse_cell), high = grid_cell(position + reach, map->grid.inverse_cell);
+  const int3 low = grid_cell(position - reach, map->grid.inverse_cell),
+             high = grid_cell(position + reach, map->grid.inverse_cell);
   const int rows_y = min(high.y - low.y, GRID_ROWS - 1), rows_z = min(high.z - low.z, GRID_ROWS - 1);
   const int first_block = low.x >> GRID_BLOCK_BITS, blocks = min((high.x >> GRID_BLOCK_BITS) - first_block, 1);
   for (int k = 0; k <= rows_z; ++k)
@@ -141,8 +152,10 @@ static inline Gathered gather_photons(const PhotonMap* map, float3 position, flo
       for (int b = 0; b <= blocks; ++b) {
         const int block = first_block + b, iy = low.y + j, iz = low.z + k;
         const uint bucket = grid_block_bucket(group, block, iy, iz, map->grid.bucket_mask);
-        const uint first = b == 0 ? low.x & (GRID_BLOCK - 1) : 0, last = b == blocks ? high.x & (GRID_BLOCK - 1) : GRID_BLOCK - 1;
-        gather_run(map, map->starts[bucket + first], map->starts[bucket + last + 1], grid_key(group, block, iy, iz), &g);
+        const uint first = b == 0 ? low.x & (GRID_BLOCK - 1) : 0,
+                   last = b == blocks ? high.x & (GRID_BLOCK - 1) : GRID_BLOCK - 1;
+        gather_run(map, map->starts[bucket + first], map->starts[bucket + last + 1], grid_key(group, block, iy, iz),
+                   &g);
       }
   settle(&g);
   return g.sum;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs of photon maps that the host and kernels share, with their sizes checked on the host. Lengths are in scene units.
+// Structs of photon maps that the host and kernels share, with their sizes checked on the host. Lengths are in scene
+// units.
 #ifndef NEPHROID_PHOTON_MAP_TYPES_H
 #define NEPHROID_PHOTON_MAP_TYPES_H
 
@@ -51,7 +52,8 @@ typedef struct {
 } PixelStatistics;
 
 #ifndef __OPENCL_C_VERSION__
-static_assert(sizeof(StoredPhoton) == 32 && sizeof(PhotonGrid) == 12 && sizeof(VisiblePoint) == 64 && sizeof(PixelStatistics) == 20);
+static_assert(sizeof(StoredPhoton) == 32 && sizeof(PhotonGrid) == 12 && sizeof(VisiblePoint) == 64 &&
+              sizeof(PixelStatistics) == 20);
 } // namespace nephroid::shared
 #endif
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photon's way from a light through glass and mirrors to where it ends: which emitter it is of, which numbers it starts with, what it
-// meets.
+// A photon's way from a light through glass and mirrors to where it ends: which emitter it is of, which numbers it
+// starts with, what it meets.
 #ifndef NEPHROID_PHOTON_PATH_H
 #define NEPHROID_PHOTON_PATH_H
 
@@ -37,9 +37,9 @@ static inline int emitter_of(__global const DeviceEmitter* emitters, int count, 
   return low;
 }
 
-// The order in which the photons 0 .. count - 1 of a launch are followed: of each 4096 the number with its bits in reverse. Points of a Sobol
-// sequence whose numbers agree in their lowest bits are close together, so photons that follow each other mostly meet the same nodes and
-// triangles. Sums of whole numbers do not ask for the order.
+// The order in which the photons 0 .. count - 1 of a launch are followed: of each 4096 the number with its bits in
+// reverse. Points of a Sobol sequence whose numbers agree in their lowest bits are close together, so photons that
+// follow each other mostly meet the same nodes and triangles. Sums of whole numbers do not ask for the order.
 static inline uint neighbours_follow(uint number, uint count)
 {
   const uint first = number & ~0xfffu;
@@ -54,14 +54,15 @@ typedef struct {
   float wavelength; // in [0, 1): which of its cluster
 } PhotonStart;
 
-// Photon `photon` of a pass. first_iteration: from which on photons are allocated to the emitters as they are (DeviceEmitter::sequence_start is for
-// it).
-// Low discrepancy: the photons of a light that go to one half of the film follow one sequence, pass after pass, so that those of all
-// clusters together are spread evenly; its fourth number says which cluster and which wavelength in it. That number has 32 bits, of which
-// the choice of the cluster takes up to 24: plain random bits below them make the wavelength as fine as any. The halves have sequences
-// of their own, as they must be independent.
-static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count, __global const DeviceLight* lights,
-                                       uint2 seed, uint iteration, uint first_iteration, uint photon)
+// Photon `photon` of a pass. first_iteration: from which on photons are allocated to the emitters as they are
+// (DeviceEmitter::sequence_start is for it).
+// Low discrepancy: the photons of a light that go to one half of the film follow one sequence, pass after pass, so that
+// those of all clusters together are spread evenly; its fourth number says which cluster and which wavelength in it.
+// That number has 32 bits, of which the choice of the cluster takes up to 24: plain random bits below them make the
+// wavelength as fine as any. The halves have sequences of their own, as they must be independent.
+static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, int emitter_count,
+                                       __global const DeviceLight* lights, uint2 seed, uint iteration, uint first_iteration,
+                                       uint photon)
 {
   PhotonStart start;
   start.emitter = emitter_of(emitters, emitter_count, photon);
@@ -73,10 +74,12 @@ static inline PhotonStart photon_start(__global const DeviceEmitter* emitters, i
   const bool placed = has_places(&light);
 #if NEPHROID_LOW_DISCREPANCY
   const ulong start_of_allocation = (ulong)emitter.sequence_start_high << 32 | emitter.sequence_start;
-  const ulong number = start_of_allocation + (ulong)((iteration - first_iteration) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
+  const ulong number = start_of_allocation +
+                       (ulong)((iteration - first_iteration) / NEPHROID_FILM_HALVES) * emitter.light_photon_count +
                        (photon - emitter.light_first_photon);
   const uint index = (uint)number; // a sequence has 2^32 points; then another begins
-  const uint3 sequence = (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | iteration % NEPHROID_FILM_HALVES);
+  const uint3 sequence =
+      (uint3)(emitter.sequence, (uint)light.number, (uint)(number >> 32) << 1 | iteration % NEPHROID_FILM_HALVES);
   const uint4 bits = sobol4_bits(seed, sequence, 0u, index);
   const uint below = (uint)(start.emission.x * 0x1p24f);         // of the fourth number: 24 bits more
   start.emission.xyz = convert_float3(bits.zxy >> 8) * 0x1p-24f; // the first two dimensions are the best pair
@@ -107,8 +110,8 @@ typedef struct {
   float3 xyz; // of a deposit: reflected light, as if the photon carried the light's whole power
 } PhotonEnd;
 
-// Follows a photon in a band to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on its last way, with
-// what it has lost; what is left of the photon is not worked out.
+// Follows a photon in a band to the first diffuse surface, out of the scene, or to its last interface. Leaves `path` on
+// its last way, with what it has lost; what is left of the photon is not worked out.
 static inline PhotonEnd trace_way(const World* world, const Band* band, Path* path, uint2 seed, uint iteration, uint photon)
 {
   PhotonEnd end;
@@ -133,7 +136,8 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
     }
     if (surface_number == world->scene.max_surfaces) break;
     met_caustic_object = true;
-    if ((surface_number & 3) == 0) choices = random4(seed, iteration, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
+    if ((surface_number & 3) == 0)
+      choices = random4(seed, iteration, photon, 2u + (uint)surface_number / 4u, STREAM_PHOTONS);
     float n_ratio;
     if (!bend_path(world, path, hit.primitive, &surface, &material, band, choices.x, &n_ratio)) break;
     choices = choices.yzwx;
@@ -141,9 +145,10 @@ static inline PhotonEnd trace_way(const World* world, const Band* band, Path* pa
   return end;
 }
 
-// The same for a photon of a light, with what is left of it and its colour. share: of the light's power, that the photon's band began with.
-static inline PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path, uint2 seed, uint iteration,
-                                     uint photon)
+// The same for a photon of a light, with what is left of it and its colour. share: of the light's power, that the
+// photon's band began with.
+static inline PhotonEnd trace_photon(const World* world, Source source, const Band* band, float share, Path* path,
+                                     uint2 seed, uint iteration, uint photon)
 {
   PhotonEnd end = trace_way(world, band, path, seed, iteration, photon);
   const bool deposited = end.outcome == OUTCOME_DEPOSITED;
@@ -151,7 +156,8 @@ static inline PhotonEnd trace_photon(const World* world, Source source, const Ba
     const int reflector = deposited ? material_of(world, end.surface.object).reflector : -1;
     const float4 carried = carried_light(world, &path->losses, source, band, reflector);
     end.xyz = carried.xyz;
-    if (path->losses.any) end.left = share != 0.0f ? carried.w / share : 1.0f; // of the environment it may be 0 where colours cancel
+    if (path->losses.any)
+      end.left = share != 0.0f ? carried.w / share : 1.0f; // of the environment it may be 0 where colours cancel
   }
   return end;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caustic layer: photons of each wavelength cluster leave the lights towards the caustic objects, are bent by glass and mirrors, and
-// are splatted into the pixel that sees the diffuse surface they reach.
+// The caustic layer: photons of each wavelength cluster leave the lights towards the caustic objects, are bent by glass
+// and mirrors, and are splatted into the pixel that sees the diffuse surface they reach.
 #include "kernels/photons/guide.h"
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
@@ -20,8 +20,8 @@
 #define NEPHROID_STORE 0
 #endif
 
-// The square of a contribution to the film in linear sRGB, in quanta of 2^12 of the film's squared, at most 2^40. The sum over an emitter's
-// photons says how many of all photons it should have (app/spectral/effort/emitters.h).
+// The square of a contribution to the film in linear sRGB, in quanta of 2^12 of the film's squared, at most 2^40. The
+// sum over an emitter's photons says how many of all photons it should have (app/spectral/effort/emitters.h).
 static inline long squared(float3 xyz, float scale)
 {
   const float3 q = xyz * (scale * 0x1p-6f);
@@ -31,15 +31,17 @@ static inline long squared(float3 xyz, float scale)
   return convert_long_rte(sum < 0x1p40f ? sum : 0x1p40f);
 }
 
-// A photon on a diffuse surface is put into its slot of a photon map. band: pass_band.h. xyz: reflected power. scale: quanta of a unit of it.
-// dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot is empty, where a photon carries too much.
-static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band, int object_count, float3 xyz,
-                                float scale, float dither)
+// A photon on a diffuse surface is put into its slot of a photon map. band: pass_band.h. xyz: reflected power. scale:
+// quanta of a unit of it. dither: uniform in [0, 1), so that rounding is right in the mean. False, and the slot is
+// empty, where a photon carries too much.
+static inline bool store_photon(__global StoredPhoton* slot, const Surface* surface, float3 arriving, int band,
+                                int object_count, float3 xyz, float scale, float dither)
 {
   const float3 quanta = xyz * scale;
   const bool fits = quanta.x <= PHOTON_LIMIT && quanta.y <= PHOTON_LIMIT && quanta.z <= PHOTON_LIMIT;
   StoredPhoton photon;
-  photon.group = fits ? photon_group(surface->object, dot(arriving, surface->geometric) < 0.0f, band, object_count) : NO_PHOTON;
+  photon.group =
+      fits ? photon_group(surface->object, dot(arriving, surface->geometric) < 0.0f, band, object_count) : NO_PHOTON;
   photon.position[0] = surface->position.x;
   photon.position[1] = surface->position.y;
   photon.position[2] = surface->position.z;
@@ -51,18 +53,20 @@ static inline bool store_photon(__global StoredPhoton* slot, const Surface* surf
   return fits;
 }
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a batch, whose number is `iteration`; a pass of maps, map_pass, has
-// one round or several. energy counts what photons carry, whatever a smooth
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a batch, whose number is `iteration`; a pass of
+// maps, map_pass, has one round or several. energy counts what photons carry, whatever a smooth
 // receiver makes of it by its shading normals.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       volatile __global long* film, volatile __global long* energy, // [OUTCOME_COUNT]
-                      volatile __global long* moments,       // with NEPHROID_MOMENTS: [emitter]
-                      volatile __global long* guide_moments, // ... [light][GUIDE_CELLS]
-                      __global const float* guide,           // ... [light][GUIDE_FLOATS]
-                      float unseen_weight,                   // ... of a stored photon that no pixel sees directly, as if one did
-                      __global StoredPhoton* stored, uint stored_first,             // [photon], with NEPHROID_STORE; where the round begins
-                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint iteration, uint map_pass, uint first_iteration, uint offset,
-                      uint stride, uint count, float film_scale, float energy_scale, float stored_scale)
+                      volatile __global long* moments,                              // with NEPHROID_MOMENTS: [emitter]
+                      volatile __global long* guide_moments,                        // ... [light][GUIDE_CELLS]
+                      __global const float* guide,                                  // ... [light][GUIDE_FLOATS]
+                      float unseen_weight, // ... of a stored photon that no pixel sees directly, as if one did
+                      __global StoredPhoton* stored,
+                      uint stored_first, // [photon], with NEPHROID_STORE; where the round begins
+                      int emitter_count, int object_count, DeviceCamera camera, uint2 seed, uint iteration, uint map_pass,
+                      uint first_iteration, uint offset, uint stride, uint count, float film_scale, float energy_scale,
+                      float stored_scale)
 {
   const World world = WORLD;
   OUTCOMES(outcomes);
@@ -92,15 +96,18 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
 #else
     const Band band = choose_band(&world, emitter.light, emitter.cluster, start.wavelength);
 #endif
-    SET_ASIDE float share = band_share(&world, source, &band, emitter.share), dither = start.emission.w, wavelength = start.wavelength;
-    SET_ASIDE float watts = emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
-    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
+    SET_ASIDE float share = band_share(&world, source, &band, emitter.share), dither = start.emission.w,
+                    wavelength = start.wavelength;
+    SET_ASIDE float watts =
+        emission.watts / ((float)emitter.photon_count * guided.density); // as if the band had all of the light's power
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
+                 light.inside,    no_losses(),        emission.behind};
     const PhotonEnd end = trace_photon(&world, source, &band, share, &path, seed, iteration, photon);
 #if NEPHROID_STORE
     if (end.outcome == OUTCOME_DEPOSITED) {
       const float3 xyz = end.xyz * (watts * shading_ratio(&end.surface, path.direction));
-      if (!store_photon(stored + stored_first + photon, &end.surface, path.direction, band_number(emitter.cluster, part), object_count, xyz, stored_scale,
-                        dither))
+      if (!store_photon(stored + stored_first + photon, &end.surface, path.direction,
+                        band_number(emitter.cluster, part), object_count, xyz, stored_scale, dither))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
 #endif
@@ -113,7 +120,8 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
         if (splat.pixel < 0) continue;
         const float3 xyz = strand.xyz * (watts * splat.weight / PI_F);
         const float turn = dither + 0.61803399f * (float)i; // every strand's own
-        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, turn - floor(turn))) add_outcome(outcomes, OUTCOME_REFUSED, 1);
+        if (!film_add_dithered(film, splat.pixel, xyz, film_scale, FILM_LIMIT, turn - floor(turn)))
+          add_outcome(outcomes, OUTCOME_REFUSED, 1);
 #if NEPHROID_MOMENTS
         moment += squared(xyz, film_scale);
 #endif
@@ -121,7 +129,8 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     }
 
 #if NEPHROID_MOMENTS
-    if (NEPHROID_STORE && end.outcome == OUTCOME_DEPOSITED && moment == 0) moment = squared(end.xyz * (watts * unseen_weight / PI_F), film_scale);
+    if (NEPHROID_STORE && end.outcome == OUTCOME_DEPOSITED && moment == 0)
+      moment = squared(end.xyz * (watts * unseen_weight / PI_F), film_scale);
     if (moment != 0) {
       add_exactly(moments + start.emitter, moment);
       add_exactly(guide_moments + emitter.light * GUIDE_CELLS + guided.cell, moment);

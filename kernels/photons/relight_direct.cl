@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The direct layer for relighting: direct.cl, whose samples go into layers (layers.h). Where nothing is bent, all wavelengths of a lamp went
-// the same way and share one layer; through glass and mirrors each cluster of each lamp has its own. Before the first pass a survey finds
-// the reflectors that each pixel sees.
+// The direct layer for relighting: direct.cl, whose samples go into layers (layers.h). Where nothing is bent, all
+// wavelengths of a lamp went the same way and share one layer; through glass and mirrors each cluster of each lamp has
+// its own. Before the first pass a survey finds the reflectors that each pixel sees.
 #include "kernels/tracing/camera.h"
 #include "kernels/tracing/eye_path.h"
 #include "kernels/photons/layers.h"
 
 // One pixel: which reflector is seen at each of its fixed places, -1 where there is none.
 __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global int* unbent, // [pixel][SURVEY_PLACES]
-                     __global int* bent)                                                     // [pixel][SURVEY_PLACES * SURVEY_PATHS]
+                     __global int* bent) // [pixel][SURVEY_PLACES * SURVEY_PATHS]
 {
   const World world = WORLD;
   const int pixel = (int)get_global_id(0);
@@ -19,7 +19,8 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
     Path first_way = path_from_eye(&camera, direction);
     const Hit first = next_hit(&world, &first_way);
     const bool hits = first.primitive != NEPHROID_NO_PRIMITIVE, straight = hits && is_unbent(&world, &camera, &first);
-    unbent[pixel * SURVEY_PLACES + place] = straight ? material_of(&world, object_of_primitive(&world.geometry, first.primitive)).reflector : -1;
+    unbent[pixel * SURVEY_PLACES + place] =
+        straight ? material_of(&world, object_of_primitive(&world.geometry, first.primitive)).reflector : -1;
     for (int p = 0; p < SURVEY_PATHS; ++p) {
       const uint number = (uint)(place * SURVEY_PATHS + p);
       int seen = -1;
@@ -37,11 +38,13 @@ __kernel void survey(WORLD_ARGUMENTS, DeviceCamera camera, uint2 seed, __global 
   }
 }
 
-// One sample of every pixel of rows first_row .. first_row + row_count - 1. mean_reflectance: [cluster, then all of them][reflector].
+// One sample of every pixel of rows first_row .. first_row + row_count - 1. mean_reflectance: [cluster, then all of
+// them][reflector].
 __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global const float* mean_reflectance,
                      __global const float* luminance_share, // [cluster]: of a flat spectrum's
-                     LAYER_FILM_ARGUMENTS(unbent), LAYER_FILM_ARGUMENTS(bent), volatile __global long* energy, DeviceCamera camera,
-                     uint2 seed, uint frame, int first_row, int row_count, float film_scale, float film_limit)
+                     LAYER_FILM_ARGUMENTS(unbent), LAYER_FILM_ARGUMENTS(bent), volatile __global long* energy,
+                     DeviceCamera camera, uint2 seed, uint frame, int first_row, int row_count, float film_scale,
+                     float film_limit)
 {
   const World world = WORLD;
   const int index = (int)get_global_id(0);
@@ -62,7 +65,8 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
     Band band = whole_cluster(-1);
     float weight = 1.0f;
     if (!straight) {
-      band.cluster = choose_cluster(cluster_cdf, all, seed, frame, i, PATHS_THROUGH_GLASS, (uint)pixel, STREAM_CAMERA_CLUSTER);
+      band.cluster =
+          choose_cluster(cluster_cdf, all, seed, frame, i, PATHS_THROUGH_GLASS, (uint)pixel, STREAM_CAMERA_CLUSTER);
       weight = 1.0f / ((cluster_cdf[band.cluster + 1] - cluster_cdf[band.cluster]) * (float)PATHS_THROUGH_GLASS);
     }
     Path path = first_way;
@@ -73,17 +77,21 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
     if (!straight) weight *= cluster_left(&world.tables, &path.losses, band.cluster);
     const int reflector = material_of(&world, surface.object).reflector;
     for (int l = 0; l < scene.light_count; ++l) {
-      const float radiance = weight * irradiance_of(&world, l, &path, &surface, hit.primitive, seed, sample, straight ? 1u : PATHS_THROUGH_GLASS, (uint)pixel) / PI_F;
+      const float radiance = weight *
+                             irradiance_of(&world, l, &path, &surface, hit.primitive, seed, sample,
+                                           straight ? 1u : PATHS_THROUGH_GLASS, (uint)pixel) /
+                             PI_F;
       if (radiance == 0.0f) continue;
       bool taken;
       if (straight)
-        taken = layer_add(&unbent, pixel, reflector, l, radiance, film_scale, film_limit, mean_reflectance + all * reflector_count, jitter.z);
+        taken = layer_add(&unbent, pixel, reflector, l, radiance, film_scale, film_limit,
+                          mean_reflectance + all * reflector_count, jitter.z);
       else if (has_cells(&bent, pixel))
         taken = layer_add(&bent, pixel, reflector, l * all + band.cluster, radiance, film_scale, film_limit,
                           mean_reflectance + band.cluster * reflector_count, jitter.z);
       else // the survey saw no glass here: a sliver of it, whose light is taken for unbent
-        taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], film_scale, film_limit,
-                          mean_reflectance + all * reflector_count, jitter.z);
+        taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], film_scale,
+                          film_limit, mean_reflectance + all * reflector_count, jitter.z);
       if (!taken) ++refused;
     }
   }

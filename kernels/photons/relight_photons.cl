@@ -4,14 +4,15 @@
 #include "kernels/photons/photon_path.h"
 #include "kernels/photons/splat.h"
 
-// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. All lamps have 1 W or 1 W m^-2; an emitter's `share` is
-// what its cluster has at present, in the unit that energy_scale is for: only the energy counters ask for it. Every photon counts alike, whatever the number
-// that its emitter has in a pass: that number may change when the light does.
+// Photons offset, offset + stride, offset + 2 stride, ... (count of them) of a pass. All lamps have 1 W or 1 W m^-2; an
+// emitter's `share` is what its cluster has at present, in the unit that energy_scale is for: only the energy counters
+// ask for it. Every photon counts alike, whatever the number that its emitter has in a pass: that number may change
+// when the light does.
 __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __global const DeviceEmitter* emitters,
                       LAYER_FILM_ARGUMENTS(film), __global const float* mean_reflectance, // [cluster][reflector]
                       volatile __global long* energy,                                     // [OUTCOME_COUNT]
-                      DeviceCamera camera, uint2 seed, uint iteration, uint first_iteration, uint offset, uint stride, uint count, float film_scale,
-                      float energy_scale)
+                      DeviceCamera camera, uint2 seed, uint iteration, uint first_iteration, uint offset, uint stride, uint count,
+                      float film_scale, float energy_scale)
 {
   const World world = WORLD;
   const LayerFilm film = LAYER_FILM(film, iteration);
@@ -26,17 +27,21 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const Emission emission = emit(&light, targets, &scene, start.emission, start.place);
     if (emission.watts == 0.0f) continue;
     const Band band = whole_cluster(emitter.cluster);
-    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE, light.inside, no_losses(), emission.behind};
+    Path path = {emission.origin, emission.direction, NEPHROID_NO_PRIMITIVE,
+                 light.inside,    no_losses(),        emission.behind};
     const PhotonEnd end = trace_way(&world, &band, &path, seed, iteration, photon);
     const float left = cluster_left(&world.tables, &path.losses, emitter.cluster);
     if (end.outcome == OUTCOME_DEPOSITED) {
       const Splat splat = splat_at(&world, &camera, &end.surface, end.triangle, path.direction);
-      const int reflector = material_of(&world, end.surface.object).reflector, layer = emitter.light * scene.cluster_count + emitter.cluster;
-      if (splat.pixel >= 0 && !layer_add(&film, splat.pixel, reflector, layer, emission.watts * left * splat.weight / PI_F, film_scale,
-                                         FILM_LIMIT, mean_reflectance + emitter.cluster * reflector_count, start.emission.w))
+      const int reflector = material_of(&world, end.surface.object).reflector,
+                layer = emitter.light * scene.cluster_count + emitter.cluster;
+      if (splat.pixel >= 0 &&
+          !layer_add(&film, splat.pixel, reflector, layer, emission.watts * left * splat.weight / PI_F, film_scale,
+                     FILM_LIMIT, mean_reflectance + emitter.cluster * reflector_count, start.emission.w))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
-    count_photon(outcomes, end.outcome, emission.watts / (float)emitter.photon_count * emitter.share * energy_scale, left);
+    count_photon(outcomes, end.outcome, emission.watts / (float)emitter.photon_count * emitter.share * energy_scale,
+                 left);
   }
   add_outcomes(energy, outcomes);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two weighted sums of a film of layers (layers.h): the picture under a light and the draw of its error. Costs one reading of the film.
-// First each cell by itself, then each pixel's cells together.
+// Two weighted sums of a film of layers (layers.h): the picture under a light and the draw of its error. Costs one
+// reading of the film. First each cell by itself, then each pixel's cells together.
 #include "kernels/photons/layer_types.h"
 
 // One work item: eight cells of one reflector. rows: halves times layers.
@@ -28,7 +28,8 @@ __kernel void weigh(__global const long* sums, int block_count, int rows, __glob
 }
 
 // One work item: one pixel.
-__kernel void gather_cells(__global const int* first, __global const LayerCell* cells, __global const float* weighed, int pixel_count,
+__kernel void gather_cells(__global const int* first, __global const LayerCell* cells, __global const float* weighed,
+                           int pixel_count,
                            __global float* pictures) // [2][pixel][3]
 {
   const int pixel = (int)get_global_id(0);
@@ -38,5 +39,6 @@ __kernel void gather_cells(__global const int* first, __global const LayerCell* 
     const int cell = cells[i].cell;
     for (int c = 0; c < 6; ++c) sums[c] += weighed[(size_t)(cell / 8) * 48 + (size_t)(8 * c + cell % 8)];
   }
-  for (int c = 0; c < 6; ++c) pictures[((size_t)(c / 3) * (size_t)pixel_count + (size_t)pixel) * 3 + (size_t)(c % 3)] = sums[c];
+  for (int c = 0; c < 6; ++c)
+    pictures[((size_t)(c / 3) * (size_t)pixel_count + (size_t)pixel) * 3 + (size_t)(c % 3)] = sums[c];
 }

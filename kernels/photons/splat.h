@@ -11,7 +11,8 @@
 #define NEPHROID_OCCLUSION 1
 #endif
 
-// Where the camera sees `position`, in pixels from the top left corner; *depth: along the view, positive before the camera.
+// Where the camera sees `position`, in pixels from the top left corner; *depth: along the view, positive before the
+// camera.
 static inline float2 place_on_film(const DeviceCamera* camera, float3 position, float* depth)
 {
   const float3 to_camera = camera->position.xyz - position;
@@ -22,12 +23,12 @@ static inline float2 place_on_film(const DeviceCamera* camera, float3 position, 
   return (float2)(x * (float)camera->width, y * (float)camera->height);
 }
 
-// The pixel that sees `position`, or -1; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited there adds
-// F reflectance / pi * weight to the pixel's radiance.
-// A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A), with
-// dq / dA = cos(theta) distance / z^3 (theta at the surface, z along the view axis).
-static inline int project_to_pixel(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving, float metres_per_unit,
-                                   float* weight)
+// The pixel that sees `position`, or -1; *weight becomes the irradiance-to-pixel factor in m^-2: a flux F deposited
+// there adds F reflectance / pi * weight to the pixel's radiance.
+// A pixel's value is the mean of the radiance over its area A on the plane at distance 1, so F enters as F dq / (dA A),
+// with dq / dA = cos(theta) distance / z^3 (theta at the surface, z along the view axis).
+static inline int project_to_pixel(const DeviceCamera* camera, float3 position, float3 geometric, float3 arriving,
+                                   float metres_per_unit, float* weight)
 {
   const float3 to_camera = camera->position.xyz - position;
   const float cos_camera = dot(to_camera, geometric), cos_arriving = -dot(arriving, geometric);
@@ -35,7 +36,8 @@ static inline int project_to_pixel(const DeviceCamera* camera, float3 position, 
   float z;
   const float2 place = place_on_film(camera, position, &z);
   if (!(z > 0.0f)) return -1;
-  if (!(place.x >= 0.0f && place.x < (float)camera->width && place.y >= 0.0f && place.y < (float)camera->height)) return -1;
+  if (!(place.x >= 0.0f && place.x < (float)camera->width && place.y >= 0.0f && place.y < (float)camera->height))
+    return -1;
   const float pixel_area = 4.0f * camera->tan_x * camera->tan_y / ((float)camera->width * (float)camera->height);
   const float depth = z * metres_per_unit;
   // cos_camera is cos(theta) times the distance already.
@@ -50,10 +52,12 @@ typedef struct {
 } Splat;
 
 // The pixel that sees a place of a surface that light arrives at.
-static inline Splat splat_at(const World* world, const DeviceCamera* camera, const Surface* surface, uint triangle, float3 arriving)
+static inline Splat splat_at(const World* world, const DeviceCamera* camera, const Surface* surface, uint triangle,
+                             float3 arriving)
 {
   Splat splat = {-1, 0.0f};
-  splat.pixel = project_to_pixel(camera, surface->position, surface->geometric, arriving, world->scene.metres_per_unit, &splat.weight);
+  splat.pixel = project_to_pixel(camera, surface->position, surface->geometric, arriving, world->scene.metres_per_unit,
+                                 &splat.weight);
   splat.weight *= shading_ratio(surface, arriving);
   if (camera->receiver >= 0) {
     if (surface->object != camera->receiver) splat.pixel = -1;

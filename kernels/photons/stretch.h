@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A splat as a streak: the light of a photon's cluster is spread along the way on which its place moves with the wavelength (Elek et al.
-// 2014, "Spectral ray differentials"), each wavelength with its own colour. The 401 lines of a rainbow become one band.
+// A splat as a streak: the light of a photon's cluster is spread along the way on which its place moves with the
+// wavelength (Elek et al. 2014, "Spectral ray differentials"), each wavelength with its own colour. The 401 lines of a
+// rainbow become one band.
 //
-// The last way of the photon of parameter s is the ray (O, D); that of another wavelength begins at O + x O' and goes along D + x D', x its
-// s less the photon's (differential.h), and is cut with the tangent plane of the receiver exactly: a place on a grazing receiver is
-// anything but linear in x. A wavelength's light lies as a tent over +-1 nm, so that it is interpolated linearly between the 401 and their
-// sum stays what it is.
+// The last way of the photon of parameter s is the ray (O, D); that of another wavelength begins at O + x O' and goes
+// along D + x D', x its s less the photon's (differential.h), and is cut with the tangent plane of the receiver
+// exactly: a place on a grazing receiver is anything but linear in x. A wavelength's light lies as a tent over +-1 nm,
+// so that it is interpolated linearly between the 401 and their sum stays what it is.
 #ifndef NEPHROID_STRETCH_H
 #define NEPHROID_STRETCH_H
 
@@ -15,13 +16,13 @@
 // The most splats that a photon becomes, and the length in pixels below which it stays one.
 #define STRETCH_SPLATS 16
 #define STRETCH_SHORTEST 0.1f
-// The farthest that the last directions of a streak may lie apart for D' to say where they go, in radians. A rainbow of streaks some
-// three times as wide is off by 3 % (docs/notebook/differentials.md). Also where D' is infinite, at the critical angle, a photon is not
-// stretched.
+// The farthest that the last directions of a streak may lie apart for D' to say where they go, in radians. A rainbow of
+// streaks some three times as wide is off by 3 % (docs/notebook/differentials.md). Also where D' is infinite, at the
+// critical angle, a photon is not stretched.
 #define STRETCH_WIDEST 0.01f
 
-// How a photon is splatted: `count` splats, of the light of its whole cluster or of what its band stands for alone. More than one splat:
-// each goes where its own wavelength does.
+// How a photon is splatted: `count` splats, of the light of its whole cluster or of what its band stands for alone.
+// More than one splat: each goes where its own wavelength does.
 typedef struct {
   int count;
   bool whole;
@@ -58,24 +59,25 @@ static inline bool is_in_triangle(const Geometry* geometry, uint triangle, float
   return u >= 0.0f && v >= 0.0f && u + v <= dot(across, across);
 }
 
-// The receiver beside the photon's triangle: what a short look back along the normal meets there. False where that is not the same object,
-// facing the same way: the receiver ends, or something stands on it.
-static inline bool surface_beside(const World* world, const PhotonEnd* end, float side, float3 place, Surface* surface, uint* triangle)
+// The receiver beside the photon's triangle: what a short look back along the normal meets there. False where that is
+// not the same object, facing the same way: the receiver ends, or something stands on it.
+static inline bool surface_beside(const World* world, const PhotonEnd* end, float side, float3 place, Surface* surface,
+                                  uint* triangle)
 {
   const float reach = 0.1f * distance(place, end->surface.position) + 8.0f * end->surface.offset;
   const float3 down = -side * end->surface.geometric;
-  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, place - reach * down, down, 0.0f,
-                              2.0f * reach, NEPHROID_NO_PRIMITIVE);
+  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, place - reach * down,
+                              down, 0.0f, 2.0f * reach, NEPHROID_NO_PRIMITIVE);
   if (hit.primitive == NEPHROID_NO_PRIMITIVE) return false;
   *surface = surface_at(&world->geometry, hit);
   *triangle = hit.primitive;
   return surface->object == end->surface.object && dot(surface->geometric, end->surface.geometric) > 0.7f;
 }
 
-// Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels. *beside: set where
-// that is in another triangle.
-static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float x,
-                               float2* film_place, bool* beside)
+// Whether light whose s is larger by x reaches the receiver; *film_place becomes where the camera sees it, in pixels.
+// *beside: set where that is in another triangle.
+static inline bool stretch_end(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
+                               float x, float2* film_place, bool* beside)
 {
   float3 place;
   if (!stretched_place(path, &end->surface, x, &place)) return false;
@@ -85,12 +87,14 @@ static inline bool stretch_end(const World* world, const DeviceCamera* camera, c
   *beside = true;
   Surface surface;
   uint triangle;
-  return surface_beside(world, end, dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f, place, &surface, &triangle);
+  return surface_beside(world, end, dot(path->direction, end->surface.geometric) < 0.0f ? 1.0f : -1.0f, place, &surface,
+                        &triangle);
 }
 
-// Tries to stretch a photon from `low` to `high`, its s being 0. False where that leads off the receiver or too far to know where.
-static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, float low,
-                                float high, Stretch* stretch)
+// Tries to stretch a photon from `low` to `high`, its s being 0. False where that leads off the receiver or too far to
+// know where.
+static inline bool stretch_over(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
+                                float low, float high, Stretch* stretch)
 {
   if (!(fabs(high - low) * length(path->differential.direction) <= STRETCH_WIDEST)) return false;
   float2 first, last = (float2)(0.0f);
@@ -99,14 +103,17 @@ static inline bool stretch_over(const World* world, const DeviceCamera* camera, 
     if (!stretch_end(world, camera, end, path, i == 0 ? low : high, &last, &stretch->beside)) return false;
   }
   const float pixels = distance(first, last);
-  if (!(pixels < STRETCH_SHORTEST)) stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
+  if (!(pixels < STRETCH_SHORTEST))
+    stretch->count = pixels < STRETCH_SPLATS - 1 ? 1 + (int)ceil(pixels) : STRETCH_SPLATS;
   return true;
 }
 
-// What becomes of a deposited photon: a streak of its cluster; where that cannot be, with jitter, a streak of its own wavelength; else a
-// point. The first choice rests on where the whole cluster's light goes and not on the photon's wavelength, so it is the same for all of
-// them, and no light is counted twice or lost where a streak would leave the receiver.
-static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path, const Band* band)
+// What becomes of a deposited photon: a streak of its cluster; where that cannot be, with jitter, a streak of its own
+// wavelength; else a point. The first choice rests on where the whole cluster's light goes and not on the photon's
+// wavelength, so it is the same for all of them, and no light is counted twice or lost where a streak would leave the
+// receiver.
+static inline Stretch stretch_of(const World* world, const DeviceCamera* camera, const PhotonEnd* end, const Path* path,
+                                 const Band* band)
 {
 #if NEPHROID_DIFFERENTIALS
   const float origin = stretch_origin(world, band);
@@ -120,8 +127,8 @@ static inline Stretch stretch_of(const World* world, const DeviceCamera* camera,
   return point;
 }
 
-// Where in its tent a wavelength's light lies, as s less `origin`; u in [0, 1) turns the tent's distribution round, whose lower half is
-// (1 + t)^2 / 2, t in -1..0.
+// Where in its tent a wavelength's light lies, as s less `origin`; u in [0, 1) turns the tent's distribution round,
+// whose lower half is (1 + t)^2 / 2, t in -1..0.
 static inline float place_in_tent(const World* world, int wavelength, float u, float origin)
 {
   const float t = u < 0.5f ? sqrt(2.0f * u) - 1.0f : 1.0f - sqrt(2.0f - 2.0f * u);
@@ -129,16 +136,19 @@ static inline float place_in_tent(const World* world, int wavelength, float u, f
   return place.x - origin + (t < 0.0f ? -t * (place.y - place.x) : t * (place.z - place.x));
 }
 
-// u in [0, 1) picks a wavelength of the photon's cluster, as choose_band does, and a place in its tent: *x becomes its s less the photon's.
+// u in [0, 1) picks a wavelength of the photon's cluster, as choose_band does, and a place in its tent: *x becomes its
+// s less the photon's.
 static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x)
 {
-  const int cluster = made_late(photon->cluster), first = world->tables.first[cluster], count = world->tables.first[cluster + 1] - first;
+  const int cluster = made_late(photon->cluster), first = world->tables.first[cluster],
+            count = world->tables.first[cluster + 1] - first;
   const int members = world->tables.first[world->scene.cluster_count];
   __global const float* cdf = world->wavelength_cdf + light * members + first;
   const int member = choose(cdf, count, u);
   const float before = chance_before(cdf, member);
   const Band band = {photon->cluster, world->tables.wavelengths[first + member], 1.0f / (cdf[member] - before)};
-  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f), stretch_origin(world, photon));
+  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f),
+                     stretch_origin(world, photon));
   return band;
 }
 
@@ -149,10 +159,11 @@ typedef struct {
   float3 xyz; // as PhotonEnd's
 } Strand;
 
-// The splat number i of stretch->count; u in [0, 1), the same for all of them: they take turns through the cluster's distribution, and with
-// jitter the first is of the photon's own wavelength. False where it does not reach the receiver.
-static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source, const Band* band,
-                             const Stretch* stretch, int i, float u, Strand* strand)
+// The splat number i of stretch->count; u in [0, 1), the same for all of them: they take turns through the cluster's
+// distribution, and with jitter the first is of the photon's own wavelength. False where it does not reach the
+// receiver.
+static inline bool strand_of(const World* world, const PhotonEnd* end, const Path* path, Source source,
+                             const Band* band, const Stretch* stretch, int i, float u, Strand* strand)
 {
   strand->surface = end->surface;
   strand->triangle = end->triangle;
@@ -161,7 +172,8 @@ static inline bool strand_of(const World* world, const PhotonEnd* end, const Pat
   const int reflector = material_of(world, end->surface.object).reflector;
   if (stretch->count == 1) {
     const Band whole = whole_cluster(band->cluster);
-    if (stretch->whole && band->wavelength >= 0) strand->xyz = carried_light(world, &path->losses, source, &whole, reflector).xyz;
+    if (stretch->whole && band->wavelength >= 0)
+      strand->xyz = carried_light(world, &path->losses, source, &whole, reflector).xyz;
     return true;
   }
   float turned = u + (float)i / (float)stretch->count;

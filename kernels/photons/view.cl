@@ -4,9 +4,10 @@
 #include "kernels/photons/pass_band.h"
 #include "kernels/photons/photon_map.h"
 
-// What a path's losses leave of the light that it brings to the eye, as factors of X, Y and Z. A wavelength has its own. Photons of a whole
-// cluster carry a sum over its wavelengths that losses cannot be applied to one by one any more: they get the mean over the cluster,
-// weighted by the lights as the surface reflects them, which is exact where no photon has had losses of its own.
+// What a path's losses leave of the light that it brings to the eye, as factors of X, Y and Z. A wavelength has its
+// own. Photons of a whole cluster carry a sum over its wavelengths that losses cannot be applied to one by one any
+// more: they get the mean over the cluster, weighted by the lights as the surface reflects them, which is exact where
+// no photon has had losses of its own.
 static inline float3 transmittance(const World* world, const Losses* losses, const Band* band, int reflector)
 {
   float3 part = (float3)(1.0f);
@@ -37,8 +38,8 @@ static inline VisiblePoint nothing_visible(void)
 }
 
 // Where a path that has hit `hit` ends in a band, which is of a part of its cluster. weight: of the path.
-static inline VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, int part, float weight, int object_count, uint2 seed,
-                               uint sample, uint pixel)
+static inline VisiblePoint see(const World* world, Path path, Hit hit, const Band* band, int part, float weight,
+                               int object_count, uint2 seed, uint sample, uint pixel)
 {
   VisiblePoint point = nothing_visible();
   Surface surface;
@@ -48,15 +49,18 @@ static inline VisiblePoint see(const World* world, Path path, Hit hit, const Ban
   point.position = (float4)(surface.position, 0.0f);
   point.normal = (float4)(surface.geometric, 0.0f);
   point.throughput = (float4)(weight * radiance_scale * transmittance(world, &path.losses, band, reflector), 0.0f);
-  point.group = photon_group(surface.object, dot(path.direction, surface.geometric) < 0.0f, band_number(band->cluster, part), object_count);
+  point.group = photon_group(surface.object, dot(path.direction, surface.geometric) < 0.0f,
+                             band_number(band->cluster, part), object_count);
   return point;
 }
 
-// points: [count], of pixels[first] and those after it; position.w: the film's dither. cluster: of all paths; or -1: each path that
-// meets glass or a mirror first takes one by its chance in cluster_cdf and is worth so much more, and the others see nothing here.
-// sample: how many paths a pixel has had before, place: how many in passes of this half of the film. Each is worth 1 / path_count of a pass.
-__kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points, DeviceCamera camera, uint2 seed,
-                   uint pass, uint sample, uint place, uint path_count, int cluster, int object_count, __global const uint* pixels, uint first, uint count)
+// points: [count], of pixels[first] and those after it; position.w: the film's dither. cluster: of all paths; or -1:
+// each path that meets glass or a mirror first takes one by its chance in cluster_cdf and is worth so much more, and
+// the others see nothing here. sample: how many paths a pixel has had before, place: how many in passes of this half of
+// the film. Each is worth 1 / path_count of a pass.
+__kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global VisiblePoint* points,
+                   DeviceCamera camera, uint2 seed, uint pass, uint sample, uint place, uint path_count, int cluster,
+                   int object_count, __global const uint* pixels, uint first, uint count)
 {
   const World world = WORLD;
   const uint index = (uint)get_global_id(0);
@@ -77,7 +81,8 @@ __kernel void view(WORLD_ARGUMENTS, __global const float* cluster_cdf, __global 
     if (cluster >= 0) {
       const int part = part_of_cluster(jitter.w);
       const Band band = band_of_pass(&world, cluster, part, seed, pass);
-      point = see(&world, path, hit, &band, part, weight * (float)NEPHROID_PASS_BANDS, object_count, seed, sample, pixel);
+      point =
+          see(&world, path, hit, &band, part, weight * (float)NEPHROID_PASS_BANDS, object_count, seed, sample, pixel);
     }
   }
   point.position.w = jitter.z;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a path loses on its way, wavelength by wavelength: Beer-Lambert absorption exp(-a s) in glass, a = 4 pi k / lambda in
-// 1/m and s in metres, and a mirror's reflectance as exp(-a s) with a = -ln(reflectance) and s the number of reflections. A path carries the s of each.
-// Where no material of the scene takes light away, NEPHROID_ATTENUATORS is 0 and all of this compiles to nothing.
+// What a path loses on its way, wavelength by wavelength: Beer-Lambert absorption exp(-a s) in glass, a = 4 pi k /
+// lambda in 1/m and s in metres, and a mirror's reflectance as exp(-a s) with a = -ln(reflectance) and s the number of
+// reflections. A path carries the s of each. Where no material of the scene takes light away, NEPHROID_ATTENUATORS is 0
+// and all of this compiles to nothing.
 #ifndef NEPHROID_ATTENUATION_H
 #define NEPHROID_ATTENUATION_H
 
@@ -16,7 +17,8 @@ typedef struct {
   __global const int* first;         // of each cluster in `wavelengths`; one more at the end
   __global const int* wavelengths;   // indices 0..400, cluster after cluster
   __global const float* coefficient; // [attenuator][wavelength]
-  __global const float4* light_xyz;  // [light][wavelength]: share of the light's power times (xbar, ybar, zbar); w: the share alone
+  __global const float4*
+      light_xyz; // [light][wavelength]: share of the light's power times (xbar, ybar, zbar); w: the share alone
   __global const float* reflectance; // [reflector][wavelength]
 } SpectralTables;
 
@@ -57,16 +59,18 @@ static inline float wavelength_left(const SpectralTables* tables, const Losses* 
 #if NEPHROID_ATTENUATORS > 0
   if (!losses->any) return 1.0f;
   float exponent = 0.0f;
-  for (int a = 0; a < NEPHROID_ATTENUATORS; ++a) exponent += tables->coefficient[a * WAVELENGTH_COUNT + wavelength] * losses->lengths[a];
+  for (int a = 0; a < NEPHROID_ATTENUATORS; ++a)
+    exponent += tables->coefficient[a * WAVELENGTH_COUNT + wavelength] * losses->lengths[a];
   return exp(-exponent);
 #else
   return 1.0f;
 #endif
 }
 
-// Sum over the cluster's wavelengths of light * what is left * reflectance (reflector -1: 1): xyz; w: without (xbar, ybar, zbar)
-// and reflectance, so the share of the light's power that is left.
-static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* losses, int light, int cluster, int reflector)
+// Sum over the cluster's wavelengths of light * what is left * reflectance (reflector -1: 1): xyz; w: without (xbar,
+// ybar, zbar) and reflectance, so the share of the light's power that is left.
+static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* losses, int light, int cluster,
+                                    int reflector)
 {
   float4 sum = (float4)(0.0f);
   cluster = made_late(cluster);

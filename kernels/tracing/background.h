@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as a latitude-longitude picture at infinity: its colour in a direction, and what the eye makes of one wavelength of it.
-// The picture knows colours; glass bends and absorbs wavelengths. So a colour stands for a spectrum: the sum of fixed spectra of the three
-// sRGB primaries (app/optics/colour.h).
+// The environment as a latitude-longitude picture at infinity: its colour in a direction, and what the eye makes of one
+// wavelength of it. The picture knows colours; glass bends and absorbs wavelengths. So a colour stands for a spectrum:
+// the sum of fixed spectra of the three sRGB primaries (app/optics/colour.h).
 #ifndef NEPHROID_BACKGROUND_H
 #define NEPHROID_BACKGROUND_H
 
@@ -19,10 +19,12 @@ static inline float3 texel_at(const Background* b, int row, int column)
   return vload3((size_t)row * (size_t)b->size.width + (size_t)column, b->texels);
 }
 
-// Linear sRGB in a direction. Bilinear between the middles of texels; columns go on around, the first and the last row are held.
+// Linear sRGB in a direction. Bilinear between the middles of texels; columns go on around, the first and the last row
+// are held.
 static inline float3 background_rgb(const Background* b, float3 direction)
 {
-  // From the middle of the picture, -z, to its right, +x. What is turned about +y to the left is looked up farther to the right.
+  // From the middle of the picture, -z, to its right, +x. What is turned about +y to the left is looked up farther to
+  // the right.
   const float azimuth = atan2(direction.x, -direction.z) / (2.0f * PI_F) + 0.5f + b->size.turns;
   const float zenith = atan2(sqrt(direction.x * direction.x + direction.z * direction.z), direction.y) / PI_F;
   const float x = (azimuth - floor(azimuth)) * (float)b->size.width - 0.5f;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which wavelengths a path stands for: a whole cluster, at the cluster's mean index of refraction (thesis 4.1), or with NEPHROID_JITTER one
-// wavelength of it, drawn for each path (with photon maps few for a pass: pass_band.h), that speaks for all. The first is biased, the second is not.
+// Which wavelengths a path stands for: a whole cluster, at the cluster's mean index of refraction (thesis 4.1), or with
+// NEPHROID_JITTER one wavelength of it, drawn for each path (with photon maps few for a pass: pass_band.h), that speaks
+// for all. The first is biased, the second is not.
 #ifndef NEPHROID_BAND_H
 #define NEPHROID_BAND_H
 
@@ -24,7 +25,8 @@ static inline Band whole_cluster(int cluster)
 }
 
 // One wavelength of a cluster, whose members are `wavelengths` and have this cdf; u in [0, 1).
-static inline Band wavelength_of_cluster(int cluster, __global const int* wavelengths, __global const float* cdf, int count, float u)
+static inline Band wavelength_of_cluster(int cluster, __global const int* wavelengths, __global const float* cdf,
+                                         int count, float u)
 {
   const int member = choose(cdf, count, u);
   const float before = chance_before(cdf, member);

@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closest and any hit of a ray with triangles and ellipsoids in a bounding volume hierarchy of 8 children a node (app/scene/bvh.cpp builds
-// it). One ray a work item; the 8 boxes of a node and the 4 triangles of a block are tested at once, as float8 and float4.
+// Closest and any hit of a ray with triangles and ellipsoids in a bounding volume hierarchy of 8 children a node
+// (app/scene/bvh.cpp builds it). One ray a work item; the 8 boxes of a node and the 4 triangles of a block are tested
+// at once, as float8 and float4.
 //
 // Node, 64 floats: for each axis 8 lower, then 8 upper bounds (48 floats), then 8 children as ints, then 8 unused.
-//   A child >= 0 is a node; < 0 is a leaf: ~child = first block << 4 | blocks of ellipsoids << 2 | blocks of triangles, which come
+//   A child >= 0 is a node; < 0 is a leaf: ~child = first block << 4 | blocks of ellipsoids << 2 | blocks of triangles,
+// which come
 //   first. A missing child has an empty box.
-// Block of triangles, 40 floats: x, y, z of the first vertex of 4 triangles, of the second, of the third (36 floats), then 4 triangle ids
+// Block of triangles, 40 floats: x, y, z of the first vertex of 4 triangles, of the second, of the third (36 floats),
+// then 4 triangle ids
 //   as ints. A missing triangle has its three vertices in one point.
-// Block of ellipsoids, 40 floats: 3 of 13 floats, its centre, the rows of the matrix that takes a way from there to the unit sphere, and
+// Block of ellipsoids, 40 floats: 3 of 13 floats, its centre, the rows of the matrix that takes a way from there to the
+// unit sphere, and
 //   the primitive's id as an int; NEPHROID_NO_PRIMITIVE: a missing one.
 //
-// What is exact. A vertex is moved into the ray's space by the same operations for every triangle it belongs to, and the sign of
-// an edge function is never wrong, only sometimes zero, and zero counts as inside: a ray cannot pass between two triangles that
-// share an edge (Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection"). Boxes are grown by more than every
-// rounding error of the tests, so the tree loses no primitive. Of hits at the same distance the lowest primitive id wins:
-// the answer depends on the mesh and the ray alone, not on how the tree was built.
+// What is exact. A vertex is moved into the ray's space by the same operations for every triangle it belongs to, and
+// the sign of an edge function is never wrong, only sometimes zero, and zero counts as inside: a ray cannot pass
+// between two triangles that share an edge (Woop, Benthin and Wald 2013, "Watertight ray/triangle intersection"). Boxes
+// are grown by more than every rounding error of the tests, so the tree loses no primitive. Of hits at the same
+// distance the lowest primitive id wins: the answer depends on the mesh and the ray alone, not on how the tree was
+// built.
 #ifndef NEPHROID_BVH_H
 #define NEPHROID_BVH_H
 
@@ -44,7 +49,8 @@
 
 typedef struct {
   float t;        // distance in lengths of the direction; the t_max given where nothing was hit
-  float u, v;     // barycentric: the point is (1 - u - v) v0 + u v1 + v v2; of an ellipsoid: of its point (u, v, w) on the unit sphere
+  float u, v; // barycentric: the point is (1 - u - v) v0 + u v1 + v v2; of an ellipsoid: of its point (u, v, w) on the
+              // unit sphere
   uint primitive; // of a triangle, or counted on from their number of an ellipsoid, or NEPHROID_NO_PRIMITIVE
 #if NEPHROID_ELLIPSOIDS
   float w;
@@ -78,8 +84,8 @@ static inline int bvh_mask4(int4 m)
 #endif
 static inline int bvh_lowest_bit(int mask) { return 31 - clz(mask & -mask); }
 
-// Of numbers or vectors that may be infinite, as an empty box and the t_max of a ray without an end are: there min and max are undefined
-// (OpenCL 1.2, 6.12.4). fmin and fmax are not, but also care for NaN, which costs 20 to 40 % here.
+// Of numbers or vectors that may be infinite, as an empty box and the t_max of a ray without an end are: there min and
+// max are undefined (OpenCL 1.2, 6.12.4). fmin and fmax are not, but also care for NaN, which costs 20 to 40 % here.
 #define BVH_MIN(a, b) ((a) < (b) ? (a) : (b))
 #define BVH_MAX(a, b) ((a) > (b) ? (a) : (b))
 
@@ -96,13 +102,15 @@ typedef struct {
 #endif
 } BvhRay;
 
-// The components of a along the axes kx, ky, kz, which follow each other. Not by index, for which a GPU would put the vector into memory.
+// The components of a along the axes kx, ky, kz, which follow each other. Not by index, for which a GPU would put the
+// vector into memory.
 static inline float3 bvh_axes(float3 a, int kz) { return kz == 0 ? a.yzx : kz == 1 ? a.zxy : a; }
 
-// Where a ray from afar passes the scene's middle, at which small objects are: writes its nearest point to the middle and returns how far
-// that is, in lengths of the direction; 0: the ray does not come from afar. Rounding errors, and with them the slack of bvh_ray, grow with
-// the origin's distance: boxes of an object smaller than 2^-20 of it would all overlap, and the ray would test every triangle. One
-// fused multiply-add is exact to rounding of its small result, so the point lies on the line as exactly as single precision can say.
+// Where a ray from afar passes the scene's middle, at which small objects are: writes its nearest point to the middle
+// and returns how far that is, in lengths of the direction; 0: the ray does not come from afar. Rounding errors, and
+// with them the slack of bvh_ray, grow with the origin's distance: boxes of an object smaller than 2^-20 of it would
+// all overlap, and the ray would test every triangle. One fused multiply-add is exact to rounding of its small result,
+// so the point lies on the line as exactly as single precision can say.
 static inline float bvh_approach(float3 o, float3 d, float3* nearest)
 {
   const float way = -dot(o, d) / dot(d, d);
@@ -118,8 +126,8 @@ static inline BvhRay bvh_ray(float3 o, float3 d)
 {
   BvhRay r;
   r.inverse = (float3)(bvh_inverse(d.x), bvh_inverse(d.y), bvh_inverse(d.z));
-  // Growing every box by `slack` covers the rounding of this test and of the triangle test, as far as they come from the
-  // origin; what comes from the triangles' own coordinates is in the tree's boxes already.
+  // Growing every box by `slack` covers the rounding of this test and of the triangle test, as far as they come from
+  // the origin; what comes from the triangles' own coordinates is in the tree's boxes already.
   const float slack = 0x1p-20f * BVH_MAX(BVH_MAX(fabs(o.x), fabs(o.y)), fabs(o.z));
   const float3 grow = fabs(r.inverse) * slack;
   r.near = o * r.inverse + grow;
@@ -162,9 +170,11 @@ static inline int bvh_boxes(global const float* node, const BvhRay* r, float t_m
 }
 
 // One block of 4 triangles. Returns the mask of those hit within (t_min, t_max], with distance and barycentrics.
-static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_min, float t_max, float4* t, float4* u, float4* v)
+static inline int bvh_triangles(global const float* block, const BvhRay* r, float t_min, float t_max, float4* t,
+                                float4* u, float4* v)
 {
-// A fused multiply-add would round one of the two products of an edge function and not the other, and its sign could be wrong.
+// A fused multiply-add would round one of the two products of an edge function and not the other, and its sign could be
+// wrong.
 #pragma OPENCL FP_CONTRACT OFF
   global const float* x = block + 4 * r->kx;
   global const float* y = block + 4 * r->ky;
@@ -192,13 +202,14 @@ static inline float3 bvh_to_unit_sphere(global const float* ellipsoid, float3 wa
   return (float3)(dot(vload3(1, ellipsoid), way), dot(vload3(2, ellipsoid), way), dot(vload3(3, ellipsoid), way));
 }
 
-// An ellipsoid: true where it is hit within (t_min, t_max]; *unit becomes the place on the unit sphere. The ray is cut at its point nearest
-// to the centre first, so that neither the origin's distance nor a small half chord costs precision (Haines, Günther and
-// Akenine-Möller 2019, "Precision improvements for ray/sphere intersection"): with l the nearest point of the line to the unit sphere's
-// centre and e the direction there, |l + s e| = 1 at s = +-sqrt((1 - l^2) / e^2).
-// leaves: the ray starts on it, so one of its two hits is that; the other lies ahead where the middle between them does.
-static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r, float t_min, float t_max, bool leaves, float* t,
-                                 float3* unit)
+// An ellipsoid: true where it is hit within (t_min, t_max]; *unit becomes the place on the unit sphere. The ray is cut
+// at its point nearest to the centre first, so that neither the origin's distance nor a small half chord costs
+// precision (Haines, Günther and Akenine-Möller 2019, "Precision improvements for ray/sphere intersection"): with l the
+// nearest point of the line to the unit sphere's centre and e the direction there, |l + s e| = 1 at s = +-sqrt((1 -
+// l^2) / e^2). leaves: the ray starts on it, so one of its two hits is that; the other lies ahead where the middle
+// between them does.
+static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r, float t_min, float t_max, bool leaves,
+                                 float* t, float3* unit)
 {
   const float3 from_centre = r->origin - vload3(0, ellipsoid);
   const float way = -dot(from_centre, r->direction) / dot(r->direction, r->direction);
@@ -221,9 +232,10 @@ static inline bool bvh_ellipsoid(global const float* ellipsoid, const BvhRay* r,
 #if NEPHROID_BVH_SCALAR
 #include "kernels/tracing/bvh_scalar.h"
 #else
-// The closest hit with t_min < t <= t_max, other than with triangle `skip` or where the ray leaves ellipsoid `skip`. No hit: t is t_max.
-static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max,
-                              uint skip)
+// The closest hit with t_min < t <= t_max, other than with triangle `skip` or where the ray leaves ellipsoid `skip`. No
+// hit: t is t_max.
+static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
+                              float t_max, uint skip)
 {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
   int at = root;
@@ -323,7 +335,8 @@ static inline Hit bvh_closest(global const float* nodes, global const float* blo
 }
 
 // Whether anything other than what bvh_closest skips is hit with t_min < t <= t_max.
-static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
+static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
+                           float t_max, uint skip)
 {
 #if BVH_LEAF_ONLY
   {
@@ -338,7 +351,8 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
       global const float* node = nodes + 64 * (size_t)at;
       global const int* children = (global const int*)(node + 48);
       float8 entry;
-      for (int mask = bvh_boxes(node, &ray, t_min, t_max, &entry); mask; mask &= mask - 1) waiting[top++] = children[bvh_lowest_bit(mask)];
+      for (int mask = bvh_boxes(node, &ray, t_min, t_max, &entry); mask; mask &= mask - 1)
+        waiting[top++] = children[bvh_lowest_bit(mask)];
       continue;
     }
 #endif
@@ -365,17 +379,17 @@ static inline bool bvh_any(global const float* nodes, global const float* blocks
 
 #endif // NEPHROID_BVH_SCALAR
 
-// Both queries below trace a ray from afar in two parts that overlap: the first from its origin, the second from its point nearest to the
-// scene's middle, so that neither part sees rounding errors of the other's distance.
+// Both queries below trace a ray from afar in two parts that overlap: the first from its origin, the second from its
+// point nearest to the scene's middle, so that neither part sees rounding errors of the other's distance.
 #define BVH_FIRST_PART 0.75f
 #define BVH_SECOND_PART 0.5f
 
-// The closest hit with t_min < t <= t_max, other than with `skip`, the triangle or ellipsoid that the ray leaves (NEPHROID_NO_PRIMITIVE:
-// none); an ellipsoid is met again on its far side.
-// The direction need not be of unit length, but neither zero nor smaller than 1e-15. t_min may be negative: a ray from afar is known
-// more exactly by a point of it near what it is sent to.
-static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_min,
-                              float t_max, uint skip)
+// The closest hit with t_min < t <= t_max, other than with `skip`, the triangle or ellipsoid that the ray leaves
+// (NEPHROID_NO_PRIMITIVE: none); an ellipsoid is met again on its far side.
+// The direction need not be of unit length, but neither zero nor smaller than 1e-15. t_min may be negative: a ray from
+// afar is known more exactly by a point of it near what it is sent to.
+static inline Hit closest_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
+                              float3 direction, float t_min, float t_max, uint skip)
 {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);
@@ -394,8 +408,8 @@ static inline Hit closest_hit(global const float* nodes, global const float* blo
 }
 
 // Whether anything other than `skip`, as above, is hit with 0 < t <= t_max.
-static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin, float3 direction, float t_max,
-                           uint skip)
+static inline bool any_hit(global const float* nodes, global const float* blocks, int root, float3 origin,
+                           float3 direction, float t_max, uint skip)
 {
   float3 nearest;
   const float way = bvh_approach(origin, direction, &nearest);

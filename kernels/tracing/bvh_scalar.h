@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The traversal of bvh.h for devices whose work items have no vectors: one box and one triangle at a time, with few registers. A level of the
-// tree that waits is a node and which of its children are still to be looked at, 5 bytes; of those the nearest is found anew each time,
-// against the distance of the closest hit so far. Bit for bit the same hits.
+// The traversal of bvh.h for devices whose work items have no vectors: one box and one triangle at a time, with few
+// registers. A level of the tree that waits is a node and which of its children are still to be looked at, 5 bytes; of
+// those the nearest is found anew each time, against the distance of the closest hit so far. Bit for bit the same hits.
 #ifndef NEPHROID_BVH_SCALAR_H
 #define NEPHROID_BVH_SCALAR_H
 
@@ -10,8 +10,8 @@
 #define NEPHROID_BVH_DEPTH 96
 #endif
 
-// Of the children `left` of a node, as a mask, the nearest whose box the ray meets within [t_min, t]; -1: none. That child, and those that are
-// missed, are taken from `left`.
+// Of the children `left` of a node, as a mask, the nearest whose box the ray meets within [t_min, t]; -1: none. That
+// child, and those that are missed, are taken from `left`.
 static inline int bvh_nearest(global const float* node, const BvhRay* r, float t_min, float t, int* left)
 {
   int nearest = -1;
@@ -37,7 +37,8 @@ static inline int bvh_nearest(global const float* node, const BvhRay* r, float t
 }
 
 // bvh_triangles of the triangle at `corner`, a lane of a block.
-static inline bool bvh_triangle(global const float* corner, const BvhRay* r, float t_min, float t_max, float* t, float* u, float* v)
+static inline bool bvh_triangle(global const float* corner, const BvhRay* r, float t_min, float t_max, float* t,
+                                float* u, float* v)
 {
 #pragma OPENCL FP_CONTRACT OFF
   global const float* x = corner + 4 * r->kx;
@@ -91,8 +92,8 @@ static inline void bvh_leaf(global const float* blocks, int leaf, const BvhRay* 
 }
 
 // Of a traversal that stops at any hit: the first that it finds.
-static inline Hit bvh_hit(global const float* nodes, global const float* blocks, int root, const BvhRay* ray, float t_min, float t_max,
-                          uint skip, bool any)
+static inline Hit bvh_hit(global const float* nodes, global const float* blocks, int root, const BvhRay* ray,
+                          float t_min, float t_max, uint skip, bool any)
 {
   Hit hit = {t_max, 0.0f, 0.0f, NEPHROID_NO_PRIMITIVE};
   int at = root, left = 0xFF;
@@ -122,12 +123,14 @@ static inline Hit bvh_hit(global const float* nodes, global const float* blocks,
   }
 }
 
-static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
+static inline Hit bvh_closest(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
+                              float t_max, uint skip)
 {
   return bvh_hit(nodes, blocks, root, &ray, t_min, t_max, skip, false);
 }
 
-static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min, float t_max, uint skip)
+static inline bool bvh_any(global const float* nodes, global const float* blocks, int root, BvhRay ray, float t_min,
+                           float t_max, uint skip)
 {
   return bvh_hit(nodes, blocks, root, &ray, t_min, t_max, skip, true).primitive != NEPHROID_NO_PRIMITIVE;
 }

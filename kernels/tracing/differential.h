@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a path moves as glass bends it a little more: derivatives of its place and direction, carried from surface to surface as ray
-// differentials are (Igehy 1999, "Tracing ray differentials"), with the wavelength in the place of the pixel (Elek et al. 2014, "Spectral
-// ray differentials").
+// How a path moves as glass bends it a little more: derivatives of its place and direction, carried from surface to
+// surface as ray differentials are (Igehy 1999, "Tracing ray differentials"), with the wavelength in the place of the
+// pixel (Elek et al. 2014, "Spectral ray differentials").
 //
-// They are taken with respect to one parameter s of the wavelength (app/tracing/wavelength_tables.h): a prime is d/ds below, and n' = dn/ds of every
-// material is given. With s the wavelength in nm a path moves by P' a nanometre; with s the index n itself, by P' a unit of n.
-// Emission does not depend on the wavelength, so every path starts with P' = 0 and D' = 0. Which surfaces a path meets, and whether it is
-// reflected there, is held fixed.
+// They are taken with respect to one parameter s of the wavelength (app/tracing/wavelength_tables.h): a prime is d/ds
+// below, and n' = dn/ds of every material is given. With s the wavelength in nm a path moves by P' a nanometre; with s
+// the index n itself, by P' a unit of n. Emission does not depend on the wavelength, so every path starts with P' = 0
+// and D' = 0. Which surfaces a path meets, and whether it is reflected there, is held fixed.
 #ifndef NEPHROID_DIFFERENTIAL_H
 #define NEPHROID_DIFFERENTIAL_H
 
@@ -38,10 +38,12 @@ static inline float3 reflected_differential(float3 direction, float3 d_direction
   return d_direction + 2.0f * (d_cos_i * normal + cos_i * d_normal);
 }
 
-// T = e D + m N, m = e c - q, with e = n_i / n_t, c = -D.N, and q = cos of the angle of refraction, q^2 = 1 - e^2 (1 - c^2). So
+// T = e D + m N, m = e c - q, with e = n_i / n_t, c = -D.N, and q = cos of the angle of refraction, q^2 = 1 - e^2 (1 -
+// c^2). So
 //   T' = e' D + e D' + m' N + m N',  m' = e' c + e c' - q',  q' = (e^2 c c' - e e' (1 - c^2)) / q.
 // Not finite at the critical angle, where q = 0.
-static inline float3 refracted_differential(float3 direction, float3 d_direction, float3 normal, float3 d_normal, float eta, float d_eta)
+static inline float3 refracted_differential(float3 direction, float3 d_direction, float3 normal, float3 d_normal,
+                                            float eta, float d_eta)
 {
   const float cos_i = -dot(direction, normal);
   const float d_cos_i = -(dot(d_direction, normal) + dot(direction, d_normal));
@@ -51,10 +53,11 @@ static inline float3 refracted_differential(float3 direction, float3 d_direction
   return d_eta * direction + eta * d_direction + d_along * normal + along * d_normal;
 }
 
-// N' of the interpolated normal N = m / |m|, m = n_0 + u (n_1 - n_0) + v (n_2 - n_0), as its place moves by P' in the triangle:
+// N' of the interpolated normal N = m / |m|, m = n_0 + u (n_1 - n_0) + v (n_2 - n_0), as its place moves by P' in the
+// triangle:
 //   P' = u' e_1 + v' e_2 gives u' and v', m' = u' (n_1 - n_0) + v' (n_2 - n_0), and N' = (m' - (m'.N) N) / |m|.
-// Of an ellipsoid N = g / |g| with g = M^T M (P - centre), so g' = M^T M P' and N' = (g' - (g'.N) N) / |g|: P' / R in a sphere.
-// position: on the primitive. The normal is the one that points outwards.
+// Of an ellipsoid N = g / |g| with g = M^T M (P - centre), so g' = M^T M P' and N' = (g' - (g'.N) N) / |g|: P' / R in a
+// sphere. position: on the primitive. The normal is the one that points outwards.
 static inline float3 normal_differential(const DevicePrimitive* primitive, float3 position, float3 d_position)
 {
 #if NEPHROID_ELLIPSOIDS
@@ -86,20 +89,23 @@ static inline void differential_to_surface(Differential* d, float3 direction, fl
 #endif
 }
 
-// Across a bend at that surface. direction: before it; n_i, n_t and their n': before and after an interface, all the same at a mirror.
-static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive, const Surface* surface,
-                                             float3 direction, const Bend* bend, float n_i, float n_t, float d_n_i, float d_n_t)
+// Across a bend at that surface. direction: before it; n_i, n_t and their n': before and after an interface, all the
+// same at a mirror.
+static inline void differential_through_bend(Differential* d, const Geometry* geometry, uint primitive,
+                                             const Surface* surface, float3 direction, const Bend* bend, float n_i,
+                                             float n_t, float d_n_i, float d_n_t)
 {
 #if NEPHROID_DIFFERENTIALS
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
   float3 d_normal = (float3)(0.0f);
   const DevicePrimitive met = geometry->primitives[primitive];
-  const bool interpolated = NEPHROID_SMOOTH && kind_of(&met) == PRIMITIVE_SMOOTH && any(bend->normal != side * surface->geometric);
+  const bool interpolated =
+      NEPHROID_SMOOTH && kind_of(&met) == PRIMITIVE_SMOOTH && any(bend->normal != side * surface->geometric);
   if (interpolated || is_ellipsoid(&met)) d_normal = side * normal_differential(&met, surface->position, d->position);
   const float eta = n_i / n_t;
-  d->direction = bend->transmitted
-                     ? refracted_differential(direction, d->direction, bend->normal, d_normal, eta, (d_n_i - eta * d_n_t) / n_t)
-                     : reflected_differential(direction, d->direction, bend->normal, d_normal);
+  d->direction = bend->transmitted ? refracted_differential(direction, d->direction, bend->normal, d_normal, eta,
+                                                            (d_n_i - eta * d_n_t) / n_t)
+                                   : reflected_differential(direction, d->direction, bend->normal, d_normal);
 #endif
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target in
-// proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly inside it. Where
-// targets overlap, `count` of them could have made the same photon, so its density is count / (sum of all): no light is counted
-// twice and none is left out.
+// Photons sent towards the caustic objects only. Every object has a bounding sphere, a target; a photon picks a target
+// in proportion to the solid angle (directional light: the area) that it fills, then a direction (a place) uniformly
+// inside it. Where targets overlap, `count` of them could have made the same photon, so its density is count / (sum of
+// all): no light is counted twice and none is left out.
 #ifndef NEPHROID_EMISSION_H
 #define NEPHROID_EMISSION_H
 
@@ -11,7 +11,7 @@
 typedef struct {
   float3 origin, direction; // the photon flies along origin + t direction, t > -behind
   float behind;             // the light is this far behind the origin, which lies beside a small target: see aim
-  float watts;              // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted
+  float watts; // of the light's whole spectrum that this photon carries, times the number of photons; 0: not emitted
 } Emission;
 
 // Two vectors that make an orthonormal frame with the unit vector n (Duff et al. 2017).
@@ -23,7 +23,8 @@ static inline void make_frame(float3 n, float3* x, float3* y)
   *y = (float3)(b, sign + n.y * n.y * a, -n.y);
 }
 
-// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below the half sphere (Malley).
+// A direction about the unit vector n with the density cos(theta) / pi: uniform on the disc below the half sphere
+// (Malley).
 static inline float3 cosine_direction(float3 n, float u, float v)
 {
   float3 x, y;
@@ -68,8 +69,9 @@ static inline bool meets_sphere(float4 sphere, float3 from, const Emission* phot
   return along + photon->behind > 0.0f && dot(aside, aside) <= radius2;
 }
 
-// Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which at a far and small target is a
-// visible part of its size. There the photon begins in the plane through the target's centre and reaches back to the light.
+// Points a photon from `from` at the target at `centre`. A direction is rounded by 2^-24, which at a far and small
+// target is a visible part of its size. There the photon begins in the plane through the target's centre and reaches
+// back to the light.
 static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 random, Emission* photon)
 {
   const float3 way = centre - from;
@@ -86,7 +88,8 @@ static inline void aim(float3 centre, float one_minus_cos, float3 from, float2 r
 }
 
 // A photon from a point towards the targets: its line is written to *photon. Returns 1 / density in steradians.
-static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random, Emission* photon)
+static inline float sample_targets(__global const DeviceTarget* targets, int target_count, float3 from, float4 random,
+                                   Emission* photon)
 {
   float one_minus_cos[MAX_TARGETS];
   float sum = 0.0f;
@@ -110,8 +113,10 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
   Emission emission = {light->position.xyz, light->direction.xyz, 0.0f, 0.0f};
   if (is_light(light, LIGHT_SPOT)) {
     float towards_targets = 0.0f;
-    for (int i = 0; i < target_count; ++i) towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
-    if (light->solid_angle <= towards_targets) { // the spot's own cone is the tighter one: every photon carries the same
+    for (int i = 0; i < target_count; ++i)
+      towards_targets += 2.0f * PI_F * one_minus_cos_of(targets[i].centre_radius, light->position.xyz);
+    if (light->solid_angle <=
+        towards_targets) { // the spot's own cone is the tighter one: every photon carries the same
       float below;
       float3 aside;
       emission.direction = sample_cone(light->direction.xyz, light->one_minus_cos, random.y, random.z, &below, &aside);
@@ -127,8 +132,10 @@ static inline Emission emit_from_point(const DeviceLight* light, __global const 
   return emission;
 }
 
-// Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per steradian.
-static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random, float2 place)
+// Radiance is power / (area pi); the place is uniform on the area, so a photon carries power cos(theta) / pi per
+// steradian.
+static inline Emission emit_from_area(const DeviceLight* light, __global const DeviceTarget* targets, float4 random,
+                                      float2 place)
 {
   Emission emission;
   const float steradians = sample_targets(targets, light->target_count, area_point(light, place), random, &emission);
@@ -137,8 +144,8 @@ static inline Emission emit_from_area(const DeviceLight* light, __global const D
   return emission;
 }
 
-static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
-                                        float4 random)
+static inline Emission emit_directional(const DeviceLight* light, __global const DeviceTarget* targets,
+                                        const DeviceScene* scene, float4 random)
 {
   const float3 direction = light->direction.xyz;
   const int target_count = light->target_count;
@@ -165,16 +172,19 @@ static inline Emission emit_directional(const DeviceLight* light, __global const
     if (i != chosen && dot(aside, aside) <= targets[i].centre_radius.w * targets[i].centre_radius.w) ++count;
   }
   const float square_metres = PI_F * sum * scene->metres_per_unit * scene->metres_per_unit;
-  const Emission emission = {place, direction, scene->outside_distance, light->radiometric * square_metres / (float)count};
+  const Emission emission = {place, direction, scene->outside_distance,
+                             light->radiometric * square_metres / (float)count};
   return emission;
 }
 
-// targets: the whole table, of which a light has its own list. Of the environment: as source_of (world.h) has turned it for one photon.
-static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene, float4 random,
-                            float2 place)
+// targets: the whole table, of which a light has its own list. Of the environment: as source_of (world.h) has turned it
+// for one photon.
+static inline Emission emit(const DeviceLight* light, __global const DeviceTarget* targets, const DeviceScene* scene,
+                            float4 random, float2 place)
 {
   targets += light->first_target;
-  if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT)) return emit_directional(light, targets, scene, random);
+  if (is_light(light, LIGHT_DIRECTIONAL) || is_light(light, LIGHT_ENVIRONMENT))
+    return emit_directional(light, targets, scene, random);
   if (is_light(light, LIGHT_AREA)) return emit_from_area(light, targets, random, place);
   return emit_from_point(light, targets, random);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path from the eye through glass and mirrors to the first diffuse surface, and the unbent light that each lamp sends there.
+// A path from the eye through glass and mirrors to the first diffuse surface, and the unbent light that each lamp sends
+// there.
 #ifndef NEPHROID_EYE_PATH_H
 #define NEPHROID_EYE_PATH_H
 
@@ -8,20 +9,21 @@
 #include "kernels/tracing/low_discrepancy.h"
 #include "kernels/tracing/world.h"
 
-// A path through glass follows one cluster and one branch of each reflection, so it is noisy: a pixel that sees glass or a mirror takes
-// this many paths a sample.
+// A path through glass follows one cluster and one branch of each reflection, so it is noisy: a pixel that sees glass
+// or a mirror takes this many paths a sample.
 #define PATHS_THROUGH_GLASS 4u
 
-// Irradiance in W m^-2 that a light of the whole spectrum gives a surface point, without shadows; the way to it and how far:
-// I cos(theta) / d^2 with the intensity I = P / (4 pi) of a point, P / (its cone's solid angle) of a spot, and P cos(theta') / pi
-// of an area light, of which one place stands for all; E cos(theta) of directional light.
+// Irradiance in W m^-2 that a light of the whole spectrum gives a surface point, without shadows; the way to it and how
+// far: I cos(theta) / d^2 with the intensity I = P / (4 pi) of a point, P / (its cone's solid angle) of a spot, and P
+// cos(theta') / pi of an area light, of which one place stands for all; E cos(theta) of directional light.
 typedef struct {
   float irradiance;
   float3 direction;
   float distance; // INFINITY: directional
 } Arrival;
 
-static inline Arrival arrive_from(const DeviceLight* light, float3 position, float3 normal, float metres_per_unit, float2 place)
+static inline Arrival arrive_from(const DeviceLight* light, float3 position, float3 normal, float metres_per_unit,
+                                  float2 place)
 {
   Arrival arrival = {0.0f, -light->direction.xyz, INFINITY};
   if (is_light(light, LIGHT_DIRECTIONAL)) {
@@ -43,8 +45,9 @@ static inline Arrival arrive_from(const DeviceLight* light, float3 position, flo
   return arrival;
 }
 
-// The four numbers of sample `sample` of an area light or the environment at a pixel, which takes `paths` of them a frame. Those of one half of the film
-// follow a sequence; the halves are independent. Sets 0 and 1 of a sequence are of photons.
+// The four numbers of sample `sample` of an area light or the environment at a pixel, which takes `paths` of them a
+// frame. Those of one half of the film follow a sequence; the halves are independent. Sets 0 and 1 of a sequence are of
+// photons.
 static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sample, uint paths, uint pixel)
 {
 #if NEPHROID_LOW_DISCREPANCY
@@ -55,21 +58,24 @@ static inline float4 light_numbers(const DeviceLight* light, uint2 seed, uint sa
 #endif
 }
 
-// Irradiance that a light sends unbent to the side of a surface that a path arrives at; 0 where something is in its way.
-static inline float irradiance_of(const World* world, int light_index, const Path* path, const Surface* surface, uint triangle, uint2 seed,
-                                  uint sample, uint paths, uint pixel)
+// Irradiance that a light sends unbent to the side of a surface that a path arrives at; 0 where something is in its
+// way.
+static inline float irradiance_of(const World* world, int light_index, const Path* path, const Surface* surface,
+                                  uint triangle, uint2 seed, uint sample, uint paths, uint pixel)
 {
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
-  const float4 place = is_light(&light, LIGHT_AREA) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
-  const Arrival arrival = arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
+  const float4 place =
+      is_light(&light, LIGHT_AREA) ? light_numbers(&light, seed, sample, paths, pixel) : (float4)(0.0f);
+  const Arrival arrival =
+      arrive_from(&light, surface->position, side * surface->shading, world->scene.metres_per_unit, place.xy);
   if (!(arrival.irradiance > 0.0f) || !(side * dot(arrival.direction, surface->geometric) > 0.0f)) return 0.0f;
   const float3 from = start_on_side(surface, side);
   return is_blocked(world, from, arrival.direction, arrival.distance, triangle) ? 0.0f : arrival.irradiance;
 }
 
-// Four numbers for sample `sample` of a pixel, which takes `paths` of them a frame: of a sequence, as light_numbers; or plain ones, where paths
-// is 0. block: which four.
+// Four numbers for sample `sample` of a pixel, which takes `paths` of them a frame: of a sequence, as light_numbers; or
+// plain ones, where paths is 0. block: which four.
 static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel, uint block, uint stream)
 {
 #if NEPHROID_LOW_DISCREPANCY
@@ -81,11 +87,12 @@ static inline float4 eye_numbers(uint2 seed, uint sample, uint paths, uint pixel
   return random4(seed, sample, pixel, block, stream);
 }
 
-// What the environment sends unbent to the side of a surface that a path arrives at, as irradiance times Source::rgb. Two shadow rays, one
-// drawn by the map's peaks and one by the cosine, weighted by the balance heuristic (Veach 1997, 9.2.2): each radiance * cosine over the sum
-// of both densities. The first finds a sun, the second is exact where the sky is even; without peaks it is the only one.
-static inline float3 sky_irradiance(const World* world, int light_index, const Path* path, const Surface* surface, uint triangle,
-                                    uint2 seed, uint sample, uint paths, uint pixel)
+// What the environment sends unbent to the side of a surface that a path arrives at, as irradiance times Source::rgb.
+// Two shadow rays, one drawn by the map's peaks and one by the cosine, weighted by the balance heuristic (Veach 1997,
+// 9.2.2): each radiance * cosine over the sum of both densities. The first finds a sun, the second is exact where the
+// sky is even; without peaks it is the only one.
+static inline float3 sky_irradiance(const World* world, int light_index, const Path* path, const Surface* surface,
+                                    uint triangle, uint2 seed, uint sample, uint paths, uint pixel)
 {
   const DeviceLight light = world->lights[light_index];
   const float side = dot(path->direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;
@@ -93,9 +100,11 @@ static inline float3 sky_irradiance(const World* world, int light_index, const P
   SET_ASIDE float4 random = light_numbers(&light, seed, sample, paths, pixel);
   SET_ASIDE float3 sum = (float3)(0.0f);
   for (int i = world->sky.size.has_peaks ? 0 : 1; i < 2; ++i) {
-    const SkyPlace place = i == 0 ? sample_sky(&world->sky, cdf_of_peaks(&world->sky), random.xy) : sky_in(&world->sky, cosine_direction(normal, random.z, random.w));
+    const SkyPlace place = i == 0 ? sample_sky(&world->sky, cdf_of_peaks(&world->sky), random.xy)
+                                  : sky_in(&world->sky, cosine_direction(normal, random.z, random.w));
     const float cosine = dot(place.direction, normal);
-    if (!(cosine > 0.0f) || !(place.density > 0.0f) || !(side * dot(place.direction, surface->geometric) > 0.0f)) continue;
+    if (!(cosine > 0.0f) || !(place.density > 0.0f) || !(side * dot(place.direction, surface->geometric) > 0.0f))
+      continue;
     SET_ASIDE float3 rgb = place.rgb;
     SET_ASIDE float weight = place.density * cosine / (place.peak_density + cosine / PI_F);
     if (!is_blocked(world, from, place.direction, INFINITY, triangle)) sum += rgb * weight;
@@ -110,12 +119,13 @@ static inline bool is_unbent(const World* world, const DeviceCamera* camera, con
   return material_of(world, object).type == MATERIAL_DIFFUSE && is_in_air(&camera->inside);
 }
 
-// Takes a path on through glass and mirrors in one band to a diffuse surface or out of the scene. known: `hit` is what it meets next. `hit` and,
-// of a diffuse surface, `surface` become those of its end. Returns by what the radiance there has to be multiplied, 0 where the path is lost:
-// radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance"). stream: of the numbers that choose between reflection and
-// refraction. likelier: the path takes the likelier of the two everywhere, for a preview without noise.
-IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed, uint sample, uint paths,
-                         uint pixel, uint stream, bool likelier, Surface* surface)
+// Takes a path on through glass and mirrors in one band to a diffuse surface or out of the scene. known: `hit` is what
+// it meets next. `hit` and, of a diffuse surface, `surface` become those of its end. Returns by what the radiance there
+// has to be multiplied, 0 where the path is lost: radiance over n^2 is what a path keeps (Nicodemus 1963, "Radiance").
+// stream: of the numbers that choose between reflection and refraction. likelier: the path takes the likelier of the
+// two everywhere, for a preview without noise.
+IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool known, const Band* band, uint2 seed,
+                         uint sample, uint paths, uint pixel, uint stream, bool likelier, Surface* surface)
 {
   float radiance_scale = 1.0f;
   SET_ASIDE float4 choices = (float4)(0.0f);
@@ -127,7 +137,9 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
     lose_in_medium(world, path, hit->t);
     if (material.type == MATERIAL_DIFFUSE) return radiance_scale;
     if ((surface_number & 3) == 0)
-      choices = likelier ? (float4)(0.5f) : eye_numbers(seed, sample, surface_number == 0 ? paths : 0u, pixel, 1u + (uint)surface_number / 4u, stream);
+      choices = likelier ? (float4)(0.5f)
+                         : eye_numbers(seed, sample, surface_number == 0 ? paths : 0u, pixel,
+                                       1u + (uint)surface_number / 4u, stream);
     float n_ratio;
     if (!bend_path(world, path, hit->primitive, surface, &material, band, choices.x, &n_ratio)) return 0.0f;
     radiance_scale *= n_ratio * n_ratio;
@@ -137,10 +149,11 @@ IN_PLACE float trace_to_diffuse(const World* world, Path* path, Hit* hit, bool k
 }
 
 // The same to a diffuse surface only: 0 where the path leaves the scene.
-IN_PLACE float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample, uint paths, uint pixel,
-                             uint stream, Surface* surface)
+IN_PLACE float reach_diffuse(const World* world, Path* path, Hit* hit, const Band* band, uint2 seed, uint sample,
+                             uint paths, uint pixel, uint stream, Surface* surface)
 {
-  const float radiance_scale = trace_to_diffuse(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface);
+  const float radiance_scale =
+      trace_to_diffuse(world, path, hit, true, band, seed, sample, paths, pixel, stream, false, surface);
   return hit->primitive == NEPHROID_NO_PRIMITIVE ? 0.0f : radiance_scale;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The film: 64-bit fixed point, so that a sum does not depend on the order of its terms and is the same bits on every device.
+// The film: 64-bit fixed point, so that a sum does not depend on the order of its terms and is the same bits on every
+// device.
 #ifndef NEPHROID_FILM_H
 #define NEPHROID_FILM_H
 
@@ -11,14 +12,19 @@
 // One contribution may be at most 2^42 quanta: 2^20 of the largest still fit below 2^63.
 #define FILM_LIMIT 0x1p42f
 
-// The largest that the sample of that number may have, of which a pixel takes `enough` with a limit of their own and any number more.
-static inline float limit_of_sample(uint number, uint enough, float limit) { return number < enough ? limit : fmin(limit, FILM_LIMIT); }
+// The largest that the sample of that number may have, of which a pixel takes `enough` with a limit of their own and
+// any number more.
+static inline float limit_of_sample(uint number, uint enough, float limit)
+{
+  return number < enough ? limit : fmin(limit, FILM_LIMIT);
+}
 
 #ifdef NEPHROID_INT64_ATOMICS
 #pragma OPENCL EXTENSION cl_khr_int64_base_atomics : enable
 static inline void add_exactly(volatile __global long* sum, long value) { atom_add(sum, value); }
 #else
-// Two 32-bit halves with carry: adding modulo 2^64 is associative, so once all have added, the bits are those of the sum.
+// Two 32-bit halves with carry: adding modulo 2^64 is associative, so once all have added, the bits are those of the
+// sum.
 static inline void add_exactly(volatile __global long* sum, long value)
 {
   volatile __global uint* half_sum = (volatile __global uint*)sum;
@@ -35,9 +41,11 @@ static inline volatile __global long* film_of_iteration(volatile __global long* 
   return film + 3 * (size_t)pixels * (iteration % NEPHROID_FILM_HALVES);
 }
 
-// Adds xyz * scale to a pixel. dither: uniform in [0, 1); then a contribution of q quanta, however small, adds q in the mean, where rounding
-// to the nearest would lose all below a half. Returns false, and adds nothing, where that is not finite or above `limit` quanta.
-static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit, float dither)
+// Adds xyz * scale to a pixel. dither: uniform in [0, 1); then a contribution of q quanta, however small, adds q in the
+// mean, where rounding to the nearest would lose all below a half. Returns false, and adds nothing, where that is not
+// finite or above `limit` quanta.
+static inline bool film_add_dithered(volatile __global long* film, int pixel, float3 xyz, float scale, float limit,
+                                     float dither)
 {
   const float3 quanta = xyz * scale;
   if (!(fabs(quanta.x) <= limit && fabs(quanta.y) <= limit && fabs(quanta.z) <= limit)) return false;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Snell's law and Fresnel's equations at a smooth interface, for unpolarised light (Born and Wolf, Principles of Optics, 1.5).
+// Snell's law and Fresnel's equations at a smooth interface, for unpolarised light (Born and Wolf, Principles of
+// Optics, 1.5).
 #ifndef NEPHROID_FRESNEL_H
 #define NEPHROID_FRESNEL_H
 
-// cos of the refraction angle from sin(theta_t) = eta sin(theta_i), eta = n_i / n_t; negative: total internal reflection.
-// 1 - eta^2 (1 - cos_i^2) is written as a product of sums, which keeps its sign to within float spacing at the critical angle.
+// cos of the refraction angle from sin(theta_t) = eta sin(theta_i), eta = n_i / n_t; negative: total internal
+// reflection. 1 - eta^2 (1 - cos_i^2) is written as a product of sums, which keeps its sign to within float spacing at
+// the critical angle.
 static inline float refracted_cosine(float cos_i, float eta)
 {
   const float sin_i = sqrt((1.0f - cos_i) * (1.0f + cos_i));
@@ -24,7 +26,10 @@ static inline float fresnel_reflectance(float cos_i, float cos_t, float n_i, flo
 }
 
 // normal: unit, against the incoming direction; cos_i = -dot(direction, normal) >= 0.
-static inline float3 reflect_about(float3 direction, float3 normal, float cos_i) { return direction + 2.0f * cos_i * normal; }
+static inline float3 reflect_about(float3 direction, float3 normal, float cos_i)
+{
+  return direction + 2.0f * cos_i * normal;
+}
 static inline float3 refract_through(float3 direction, float3 normal, float cos_i, float cos_t, float eta)
 {
   return normalize(eta * direction + (eta * cos_i - cos_t) * normal);

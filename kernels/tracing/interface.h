@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A path at the surface of a dielectric object: which media meet there, and whether the path is reflected or goes through.
+// A path at the surface of a dielectric object: which media meet there, and whether the path is reflected or goes
+// through.
 #ifndef NEPHROID_INTERFACE_H
 #define NEPHROID_INTERFACE_H
 
@@ -15,8 +16,9 @@
 // choice: uniform in [0, 1), picks reflection with Fresnel's probability. Updates `media` where the path goes through.
 // *n_ratio: n on the near side over n on the far side, 1 for a reflected path.
 // Returns false where more than MEDIA_DEPTH media would enclose the path.
-static inline bool cross_interface(Media* media, const Surface* surface, __global const DeviceObject* objects, __global const float* n_of,
-                                   float3 direction, float choice, Bend* bend, float* n_ratio)
+static inline bool cross_interface(Media* media, const Surface* surface, __global const DeviceObject* objects,
+                                   __global const float* n_of, float3 direction, float choice, Bend* bend,
+                                   float* n_ratio)
 {
   const bool enters = dot(direction, surface->geometric) < 0.0f;
   Media beyond = *media;

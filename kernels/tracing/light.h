@@ -7,8 +7,8 @@
 
 #define PI_F 3.14159265358979f
 
-// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and no question is asked where there is
-// one type only.
+// Bit 1 << LIGHT_* for each type that the scene has. The code of other types compiles to nothing, and no question is
+// asked where there is one type only.
 #ifndef NEPHROID_LIGHT_TYPES
 #define NEPHROID_LIGHT_TYPES 31
 #endif
@@ -32,7 +32,10 @@ static inline bool in_spot(const DeviceLight* light, float3 direction)
 }
 
 // Whether a photon begins at a place of its own: on a rectangle, or in the environment.
-static inline bool has_places(const DeviceLight* light) { return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT); }
+static inline bool has_places(const DeviceLight* light)
+{
+  return is_light(light, LIGHT_AREA) || is_light(light, LIGHT_ENVIRONMENT);
+}
 
 // A point of an area light's rectangle.
 static inline float3 area_point(const DeviceLight* light, float2 place)

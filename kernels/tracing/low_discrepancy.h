@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Low-discrepancy numbers: a Sobol sequence of four dimensions, scrambled as Owen (1995) has it by hashing (Burley 2020, "Practical
-// hash-based Owen scrambling"). Each number on its own is uniform in [0, 1); sequences with another key are independent.
+// Low-discrepancy numbers: a Sobol sequence of four dimensions, scrambled as Owen (1995) has it by hashing (Burley
+// 2020, "Practical hash-based Owen scrambling"). Each number on its own is uniform in [0, 1); sequences with another
+// key are independent.
 #ifndef NEPHROID_LOW_DISCREPANCY_H
 #define NEPHROID_LOW_DISCREPANCY_H
 
@@ -10,8 +11,9 @@
 #define NEPHROID_LOW_DISCREPANCY 1
 #endif
 
-// Direction numbers of the dimensions 2, 3 and 4 for each bit of the index (Joe and Kuo 2008, new-joe-kuo-6: primitive polynomials x + 1,
-// x^2 + x + 1, x^3 + x + 1 with initial numbers 1; 1, 3; 1, 3, 1). Dimension 1 is the index with its bits in reverse.
+// Direction numbers of the dimensions 2, 3 and 4 for each bit of the index (Joe and Kuo 2008, new-joe-kuo-6: primitive
+// polynomials x + 1, x^2 + x + 1, x^3 + x + 1 with initial numbers 1; 1, 3; 1, 3, 1). Dimension 1 is the index with its
+// bits in reverse.
 __constant uint3 sobol_directions[32] = {
     (uint3)(0x80000000u, 0x80000000u, 0x80000000u), (uint3)(0xc0000000u, 0xc0000000u, 0xc0000000u),
     (uint3)(0xa0000000u, 0x60000000u, 0x20000000u), (uint3)(0xf0000000u, 0x90000000u, 0x50000000u),
@@ -40,8 +42,8 @@ static inline uint reverse_bits(uint x)
   return ((x & 0x55555555u) << 1) | ((x & 0xaaaaaaaau) >> 1);
 }
 
-// A random permutation in which every bit depends on the lower bits only (Laine and Karras 2011; constants of Vegdahl 2021): on a number
-// with its bits in reverse this is Owen's scrambling, by the higher bits.
+// A random permutation in which every bit depends on the lower bits only (Laine and Karras 2011; constants of Vegdahl
+// 2021): on a number with its bits in reverse this is Owen's scrambling, by the higher bits.
 static inline uint4 permute_by_lower_bits(uint4 x, uint4 key)
 {
   x ^= x * 0x3d20adeau;
@@ -52,16 +54,22 @@ static inline uint4 permute_by_lower_bits(uint4 x, uint4 key)
   return x;
 }
 
-static inline uint4 reverse_bits4(uint4 x) { return (uint4)(reverse_bits(x.x), reverse_bits(x.y), reverse_bits(x.z), reverse_bits(x.w)); }
+static inline uint4 reverse_bits4(uint4 x)
+{
+  return (uint4)(reverse_bits(x.x), reverse_bits(x.y), reverse_bits(x.z), reverse_bits(x.w));
+}
 
-// Point `index` of four dimensions, in units of 2^-32. sequence: what it is for, part of the key; set: sets of one sequence are independent
-// of each other.
+// Point `index` of four dimensions, in units of 2^-32. sequence: what it is for, part of the key; set: sets of one
+// sequence are independent of each other.
 static inline uint4 sobol4_bits(uint2 seed, uint3 sequence, uint set, uint index)
 {
   const uint4 key = philox4x32((uint4)(sequence, set << 16 | STREAM_SOBOL), seed);
-  // The order of the points of every set but the first is shuffled by a key of its own, so that sets are not paired alike.
+  // The order of the points of every set but the first is shuffled by a key of its own, so that sets are not paired
+  // alike.
   uint shuffled = index;
-  if (set != 0u) shuffled = reverse_bits(permute_by_lower_bits((uint4)(reverse_bits(index)), (uint4)(key.x ^ key.w * 0x9e3779b9u)).x);
+  if (set != 0u)
+    shuffled =
+        reverse_bits(permute_by_lower_bits((uint4)(reverse_bits(index)), (uint4)(key.x ^ key.w * 0x9e3779b9u)).x);
   uint3 bits = (uint3)(0u);
   ROLLED
   for (int i = 0; i < 32; ++i) bits ^= sobol_directions[i] & (uint3)(0u - (shuffled >> i & 1u));

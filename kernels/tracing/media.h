@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nested dielectrics (Schmidt and Budge 2002): which objects enclose a path, and which of them is the medium there.
-// An object counts once for each of its surfaces that was entered and not left, so overlapping shells of one mesh act as their union.
-// The list is 128 bits of a path, not an array: a GPU keeps it in registers.
+// An object counts once for each of its surfaces that was entered and not left, so overlapping shells of one mesh act
+// as their union. The list is 128 bits of a path, not an array: a GPU keeps it in registers.
 #ifndef NEPHROID_MEDIA_H
 #define NEPHROID_MEDIA_H
 
@@ -9,7 +9,10 @@
 
 #define MEDIUM_MASK ((1ul << MEDIUM_BITS) - 1ul)
 
-static inline bool is_in_air(const Media* media) { return media->latest == 0ul; } // the earlier ones come after four others
+static inline bool is_in_air(const Media* media)
+{
+  return media->latest == 0ul;
+} // the earlier ones come after four others
 
 // The object that was entered last, which is not none.
 static inline int latest_medium(const Media* media) { return (int)(media->latest & MEDIUM_MASK) - 1; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the photons of a launch ended, as sums in quanta of power: OUTCOME_*. Photons are added up near at hand before anything goes to the
-// counters in global memory, which all items share: on a CPU by each item, which follows several; on a GPU by each work group, in local
-// memory. Sums of whole numbers are the same in any order.
+// Where the photons of a launch ended, as sums in quanta of power: OUTCOME_*. Photons are added up near at hand before
+// anything goes to the counters in global memory, which all items share: on a CPU by each item, which follows several;
+// on a GPU by each work group, in local memory. Sums of whole numbers are the same in any order.
 //
 //   OUTCOMES(outcomes);            at the top of a kernel that every item of a group leaves by its end
 //   add_outcome(outcomes, OUTCOME_LOST, quanta);
@@ -14,8 +14,8 @@
 
 #ifdef NEPHROID_GPU
 typedef volatile __local uint* Outcomes; // lower and upper halves: atomics of 64 bits in local memory are rare, or slow
-#define OUTCOMES(name)                                                                                                                   \
-  __local uint name[2 * OUTCOME_COUNT];                                                                                                  \
+#define OUTCOMES(name)                                                                                                 \
+  __local uint name[2 * OUTCOME_COUNT];                                                                                \
   begin_outcomes(name)
 
 static inline void begin_outcomes(Outcomes outcomes)

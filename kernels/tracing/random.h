@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counter-based random numbers: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
-// A number is a function of (seed, stream, iteration, index, dimension) alone, so results do not depend on threads, devices or resuming.
+// A number is a function of (seed, stream, iteration, index, dimension) alone, so results do not depend on threads, devices
+// or resuming.
 #ifndef NEPHROID_RANDOM_H
 #define NEPHROID_RANDOM_H
 
 #include "kernels/tracing/registers.h"
 
-// Streams keep apart what is drawn for different ends with the same (iteration, index, dimension). No two kernels of a run share one; the
-// kernels of relighting (relight_*.cl) use those of the kernels that they replace.
+// Streams keep apart what is drawn for different ends with the same (iteration, index, dimension). No two kernels of a run
+// share one; the kernels of relighting (relight_*.cl) use those of the kernels that they replace.
 #define STREAM_PHOTONS 0u                // photons.cl: index is the photon of a pass
 #define STREAM_CAMERA 1u                 // direct.cl, here and below: index is the pixel
 #define STREAM_CAMERA_LIGHT 2u           // places on area lights

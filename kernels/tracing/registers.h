@@ -3,12 +3,13 @@
 #ifndef NEPHROID_REGISTERS_H
 #define NEPHROID_REGISTERS_H
 
-// For what takes a World and is large: called as a function of its own it would need the World in memory, which kernels have as arguments.
+// For what takes a World and is large: called as a function of its own it would need the World in memory, which kernels
+// have as arguments.
 #define IN_PLACE static inline __attribute__((always_inline))
 
 // ROLLED: a loop that stays one.
-// SET_ASIDE: what a path does not need until it has found its next hit. It waits in memory, for compilers also keep what they can make of
-// such numbers beforehand, as addresses in tables.
+// SET_ASIDE: what a path does not need until it has found its next hit. It waits in memory, for compilers also keep
+// what they can make of such numbers beforehand, as addresses in tables.
 // made_late: of a number, from which nothing is made before the loops that it stands in.
 #ifdef NEPHROID_GPU
 #define ROLLED _Pragma("unroll 1")

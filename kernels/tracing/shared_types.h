@@ -79,7 +79,8 @@ typedef struct {
   int type;            // LIGHT_*
   float one_minus_cos; // spot: of its half angle
   float solid_angle;   // spot: of its cone, in steradians
-  float radiometric;   // point, spot, area: power in W; directional: irradiance in W m^-2; environment: of all directions together
+  float radiometric; // point, spot, area: power in W; directional: irradiance in W m^-2; environment: of all directions
+                     // together
   Media inside;        // directional, environment: none
   int first_target;    // in the table of targets: those that this light can reach
   int target_count;
@@ -87,15 +88,15 @@ typedef struct {
   int padding;
 } DeviceLight;
 
-// A bounding sphere of a caustic object: photons are sent towards these only. The table has one list after the other, one for each set
-// of spheres that some light reaches.
+// A bounding sphere of a caustic object: photons are sent towards these only. The table has one list after the other,
+// one for each set of spheres that some light reaches.
 typedef struct {
   float4 centre_radius; // w: radius
 } DeviceTarget;
 
-// Photons of one wavelength cluster from one light. Photon i of a pass belongs to the last emitter with first_photon <= i, or with
-// low-discrepancy numbers to any emitter of the same light, each as often as its photon_count says (photon_path.h). Those of a light
-// follow each other.
+// Photons of one wavelength cluster from one light. Photon i of a pass belongs to the last emitter with first_photon <=
+// i, or with low-discrepancy numbers to any emitter of the same light, each as often as its photon_count says
+// (photon_path.h). Those of a light follow each other.
 typedef struct {
   uint first_photon;
   uint photon_count;
@@ -132,8 +133,8 @@ typedef struct {
 #define PRIMITIVE_ELLIPSOID 2
 #define PRIMITIVE_ELLIPSOID_INWARDS 3 // its normals look towards its centre
 
-// A triangle or ellipsoid as a hit reads it: 64 bytes, a line of a processor's cache. Of a smooth triangle `normal` and then the w of edge_u
-// and edge_v are the normals of its vertices, 8 bytes each (surface.h).
+// A triangle or ellipsoid as a hit reads it: 64 bytes, a line of a processor's cache. Of a smooth triangle `normal` and
+// then the w of edge_u and edge_v are the normals of its vertices, 8 bytes each (surface.h).
 typedef struct {
   float4 corner; // the first corner; of an ellipsoid its centre. w: as_int, the object's number << 2 | PRIMITIVE_*
   float4 edge_u; // from there to the second corner; first row of the matrix to the unit sphere

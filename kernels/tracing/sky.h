@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The environment as a light: parallel light from every texel of a latitude-longitude picture (background.h says where a texel is seen). A
-// row is drawn by its flux, radiance times solid angle, then a texel of the row, then a place in the texel by solid angle: so every photon
-// carries nearly as much, and a sun of a few texels gets the photons that are its share.
+// The environment as a light: parallel light from every texel of a latitude-longitude picture (background.h says where
+// a texel is seen). A row is drawn by its flux, radiance times solid angle, then a texel of the row, then a place in
+// the texel by solid angle: so every photon carries nearly as much, and a sun of a few texels gets the photons that are
+// its share.
 //
-// A texel has one colour, and a colour stands for r, g and b times the fixed spectra of the three sRGB primaries, as where the environment
-// is seen. These are three rows of the tables of lights, from the environment's own on: what a photon carries is a sum of three, and may
-// be negative at a wavelength where a primary is. Flux counts colours by (r + g + b) / 3.
+// A texel has one colour, and a colour stands for r, g and b times the fixed spectra of the three sRGB primaries, as
+// where the environment is seen. These are three rows of the tables of lights, from the environment's own on: what a
+// photon carries is a sum of three, and may be negative at a wavelength where a primary is. Flux counts colours by (r +
+// g + b) / 3.
 //
-// Surfaces draw by the peaks alone, what is brighter than the mean over all directions: their second draw, by the cosine, finds all else
-// (Karlik et al. 2019, "MIS compensation").
+// Surfaces draw by the peaks alone, what is brighter than the mean over all directions: their second draw, by the
+// cosine, finds all else (Karlik et al. 2019, "MIS compensation").
 #ifndef NEPHROID_SKY_H
 #define NEPHROID_SKY_H
 
@@ -16,13 +18,13 @@
 #include "kernels/tracing/light.h"
 
 typedef struct {
-  __global const float* cdf;    // exact_cdf of the rows, then of the texels of each row: by flux; then the same by peaks
+  __global const float* cdf; // exact_cdf of the rows, then of the texels of each row: by flux; then the same by peaks
   __global const float* colour; // [row][column][3]: linear sRGB of a texel over its grey: Source::rgb
   DeviceBackground size;
 } Sky;
 
-// A direction with what comes from there: `density` is the chance of being drawn, a steradian. Radiance is colour * density, of a sky whose
-// grey light has 1 W m^-2 of all directions together.
+// A direction with what comes from there: `density` is the chance of being drawn, a steradian. Radiance is colour *
+// density, of a sky whose grey light has 1 W m^-2 of all directions together.
 typedef struct {
   float3 direction; // unit, to the sky
   float3 rgb;
@@ -30,7 +32,10 @@ typedef struct {
   float peak_density; // the chance among the peaks, a steradian
 } SkyPlace;
 
-static inline __global const float* cdf_of_peaks(const Sky* sky) { return sky->cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1); }
+static inline __global const float* cdf_of_peaks(const Sky* sky)
+{
+  return sky->cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1);
+}
 
 static inline float sky_density(const Sky* sky, __global const float* cdf, int row, int column)
 {
@@ -38,18 +43,21 @@ static inline float sky_density(const Sky* sky, __global const float* cdf, int r
   __global const float* columns = cdf + height + (size_t)row * (size_t)width;
   const float row_chance = cdf[row] - chance_before(cdf, row), column_chance = columns[column] - chance_before(columns, column);
   // cos a - cos b as a product, exact for thin rows.
-  const float steradians = 4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
+  const float steradians =
+      4.0f * PI_F / (float)width * sin(PI_F * ((float)row + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
   return row_chance * column_chance / steradians;
 }
 
 static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int column)
 {
   const SkyPlace place = {direction, vload3((size_t)row * (size_t)sky->size.width + (size_t)column, sky->colour),
-                          sky_density(sky, sky->cdf, row, column), sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
+                          sky_density(sky, sky->cdf, row, column),
+                          sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
   return place;
 }
 
-// Where in its bin a number falls that has drawn it: in the middle of its 2^24th, so that bins of a few such numbers have no side.
+// Where in its bin a number falls that has drawn it: in the middle of its 2^24th, so that bins of a few such numbers
+// have no side.
 static inline float place_in_bin(__global const float* cdf, int bin, float number)
 {
   const float before = chance_before(cdf, bin);
@@ -71,7 +79,8 @@ static inline SkyPlace sample_sky(const Sky* sky, __global const float* cdf, flo
   const float deep = 2.0f * sin(PI_F * ((float)from_pole + 0.5f) / (float)height) * sin(0.5f * PI_F / (float)height);
   const float below = 2.0f * edge * edge + (upper ? within : 1.0f - within) * deep;
   const float sine = sqrt(fmax(below * (2.0f - below), 0.0f));
-  const float azimuth = ((float)column + place_in_bin(columns, column, place.y)) / (float)width - 0.5f - sky->size.turns;
+  const float azimuth =
+      ((float)column + place_in_bin(columns, column, place.y)) / (float)width - 0.5f - sky->size.turns;
   float cosine_azimuth;
   const float sine_azimuth = sincos(2.0f * PI_F * azimuth, &cosine_azimuth);
   const float3 direction = {sine * sine_azimuth, upper ? 1.0f - below : below - 1.0f, -sine * cosine_azimuth};

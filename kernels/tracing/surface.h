@@ -29,14 +29,18 @@ typedef struct {
 
 static inline int kind_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) & 3; }
 static inline int object_of(const DevicePrimitive* primitive) { return as_int(primitive->corner.w) >> 2; }
-static inline bool is_ellipsoid(const DevicePrimitive* primitive) { return NEPHROID_ELLIPSOIDS && kind_of(primitive) >= PRIMITIVE_ELLIPSOID; }
+static inline bool is_ellipsoid(const DevicePrimitive* primitive)
+{
+  return NEPHROID_ELLIPSOIDS && kind_of(primitive) >= PRIMITIVE_ELLIPSOID;
+}
 
 static inline int object_of_primitive(const Geometry* geometry, uint primitive)
 {
   return as_int(geometry->primitives[primitive].corner.w) >> 2;
 }
 
-// A vertex normal of 21 bits a coordinate, in units of 2^-20, each moved to the top of a word. Its error is below that of a mesh's file.
+// A vertex normal of 21 bits a coordinate, in units of 2^-20, each moved to the top of a word. Its error is below that
+// of a mesh's file.
 static inline float3 unpacked_normal(float low, float high)
 {
   const uint x = as_uint(low), y = as_uint(high);
@@ -49,7 +53,8 @@ typedef struct {
 
 static inline VertexNormals vertex_normals(const DevicePrimitive* triangle)
 {
-  const VertexNormals normals = {unpacked_normal(triangle->normal.x, triangle->normal.y), unpacked_normal(triangle->normal.z, triangle->normal.w),
+  const VertexNormals normals = {unpacked_normal(triangle->normal.x, triangle->normal.y),
+                                 unpacked_normal(triangle->normal.z, triangle->normal.w),
                                  unpacked_normal(triangle->edge_u.w, triangle->edge_v.w)};
   return normals;
 }
@@ -81,7 +86,8 @@ static inline float ellipsoid_side(const DevicePrimitive* ellipsoid)
   return kind_of(ellipsoid) == PRIMITIVE_ELLIPSOID_INWARDS ? -1.0f : 1.0f;
 }
 
-// A ray that leaves an ellipsoid knows that it does (bvh_ellipsoid), so the offset need only be of the size of the position's rounding.
+// A ray that leaves an ellipsoid knows that it does (bvh_ellipsoid), so the offset need only be of the size of the
+// position's rounding.
 static inline Surface ellipsoid_at(const DevicePrimitive* ellipsoid, float3 unit)
 {
   Surface surface;
@@ -95,15 +101,17 @@ static inline Surface ellipsoid_at(const DevicePrimitive* ellipsoid, float3 unit
 }
 #endif
 
-// Both the interpolated point and the distance at which a ray meets a neighbour in the same plane are off by a few 2^-24 of the
-// triangle's largest coordinate. Starting farther away than that keeps a new ray from meeting the surface that it leaves.
+// Both the interpolated point and the distance at which a ray meets a neighbour in the same plane are off by a few
+// 2^-24 of the triangle's largest coordinate. Starting farther away than that keeps a new ray from meeting the surface
+// that it leaves.
 static inline float triangle_offset(float3 corner, float3 edge_u, float3 edge_v)
 {
   const float3 size = max(fabs(corner), max(fabs(edge_u), fabs(edge_v)));
   return 0x1p-21f * max(max(size.x, size.y), size.z);
 }
 
-// Barycentric interpolation rounds relative to the triangle's size; origin + t * direction would round relative to the distance.
+// Barycentric interpolation rounds relative to the triangle's size; origin + t * direction would round relative to the
+// distance.
 static inline Surface surface_at(const Geometry* geometry, Hit hit)
 {
   const DevicePrimitive triangle = geometry->primitives[hit.primitive];
@@ -128,14 +136,18 @@ static inline Surface surface_at(const Geometry* geometry, Hit hit)
 }
 
 // A start for a ray that leaves on the outer (side 1) or inner (side -1) side.
-static inline float3 start_on_side(const Surface* surface, float side) { return surface->position + side * surface->offset * surface->geometric; }
+static inline float3 start_on_side(const Surface* surface, float side)
+{
+  return surface->position + side * surface->offset * surface->geometric;
+}
 
-// A photon near grazing may count as so many: where a facet gets next to nothing, and its shading normal says otherwise, single photons would
-// be bright specks. What is cut off is less than the light on a facet that arrives within 3.6 degrees of it.
+// A photon near grazing may count as so many: where a facet gets next to nothing, and its shading normal says
+// otherwise, single photons would be bright specks. What is cut off is less than the light on a facet that arrives
+// within 3.6 degrees of it.
 #define SHADING_RATIO_LIMIT 16.0f
 
-// What makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl lights the surface: the ratio of both
-// cosines (Veach 1997, 5.3.2); 0 behind the shading normal's horizon.
+// What makes a photon's flux on a triangle the irradiance about the shading normal, by which direct.cl lights the
+// surface: the ratio of both cosines (Veach 1997, 5.3.2); 0 behind the shading normal's horizon.
 static inline float shading_ratio(const Surface* surface, float3 arriving)
 {
 #if NEPHROID_SMOOTH
@@ -156,7 +168,8 @@ typedef struct {
   bool straight; // nothing bent it: the normal is not set
 } Bend;
 
-// normal: unit, on the side that the ray comes from. choice: uniform in [0, 1): below the reflectance the ray is reflected.
+// normal: unit, on the side that the ray comes from. choice: uniform in [0, 1): below the reflectance the ray is
+// reflected.
 static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t, float choice)
 {
   Bend bend;
@@ -167,11 +180,13 @@ static inline Bend bend_at(float3 direction, float3 normal, float n_i, float n_t
   const float eta = n_i / n_t;
   const float cos_t = refracted_cosine(cos_i, eta);
   bend.transmitted = cos_t >= 0.0f && !(choice < fresnel_reflectance(cos_i, cos_t, n_i, n_t));
-  bend.direction = bend.transmitted ? refract_through(direction, normal, cos_i, cos_t, eta) : reflect_about(direction, normal, cos_i);
+  bend.direction = bend.transmitted ? refract_through(direction, normal, cos_i, cos_t, eta)
+                                    : reflect_about(direction, normal, cos_i);
   return bend;
 }
 
-// Bends about the shading normal, unless that sends the ray to the wrong side of the triangle: then about the triangle's own normal.
+// Bends about the shading normal, unless that sends the ray to the wrong side of the triangle: then about the
+// triangle's own normal.
 static inline Bend bend_at_surface(float3 direction, const Surface* surface, float n_i, float n_t, float choice)
 {
   const float side = dot(direction, surface->geometric) < 0.0f ? 1.0f : -1.0f;

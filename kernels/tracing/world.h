@@ -24,8 +24,9 @@ typedef struct {
   __global const float* wavelength_cdf;      // [light, or all of them at the end][member of cluster]: see band.h
   __global const float* index_slope;         // [cluster][material]: dn/ds, see differential.h, here and below
   __global const float4* stretch_place;      // [401]: s of a wavelength, of the one below it, of the one above
-  __global const float4* stretch_span;       // [cluster]: s of its mean index, the lowest and the highest s of its light
-  __global const float4* reflected_xyz;      // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar); w: of light
+  __global const float4* stretch_span; // [cluster]: s of its mean index, the lowest and the highest s of its light
+  __global const float4*
+      reflected_xyz; // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar); w: of light
   SpectralTables tables;
   Sky sky; // empty where no environment is a light
   int reflector_count;
@@ -33,20 +34,22 @@ typedef struct {
 } World;
 
 // The buffers that a World is made of, as kernel arguments.
-#define WORLD_ARGUMENTS                                                                                                                    \
-  __global const float *nodes, __global const float *blocks, __global const DevicePrimitive *primitives,                                   \
-      __global const DeviceObject *objects,                                                                                                \
-      __global const DeviceMaterial *materials, __global const DeviceLight *lights, __global const float *index_of_cluster,                \
-      __global const float *index_of_wavelength, __global const float *wavelength_cdf, __global const float *index_slope,                  \
-      __global const float4 *stretch_place, __global const float4 *stretch_span, __global const float4 *reflected_xyz,                     \
-      __global const int *cluster_first, __global const int *cluster_wavelengths, __global const float *coefficient,                       \
-      __global const float4 *light_xyz, __global const float *reflectance, __global const float *sky_cdf,                                  \
-      __global const float *sky_colour, DeviceBackground sky_size, int reflector_count, DeviceScene scene
-#define WORLD                                                                                                                              \
-  {                                                                                                                                        \
-    {nodes, blocks, primitives, scene.root}, objects, materials, lights, index_of_cluster,                                                 \
-        index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                                      \
-        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size}, reflector_count, scene \
+#define WORLD_ARGUMENTS                                                                                                \
+  __global const float *nodes, __global const float *blocks, __global const DevicePrimitive *primitives,               \
+      __global const DeviceObject *objects, __global const DeviceMaterial *materials,                                  \
+      __global const DeviceLight *lights, __global const float *index_of_cluster,                                      \
+      __global const float *index_of_wavelength, __global const float *wavelength_cdf,                                 \
+      __global const float *index_slope, __global const float4 *stretch_place, __global const float4 *stretch_span,    \
+      __global const float4 *reflected_xyz, __global const int *cluster_first,                                         \
+      __global const int *cluster_wavelengths, __global const float *coefficient, __global const float4 *light_xyz,    \
+      __global const float *reflectance, __global const float *sky_cdf, __global const float *sky_colour,              \
+      DeviceBackground sky_size, int reflector_count, DeviceScene scene
+#define WORLD                                                                                                          \
+  {                                                                                                                    \
+    {nodes, blocks, primitives, scene.root}, objects, materials, lights, index_of_cluster,                             \
+        index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                  \
+        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size},    \
+        reflector_count, scene                                                                                         \
   }
 
 typedef struct {
@@ -67,8 +70,8 @@ static inline Path path_from_eye(const DeviceCamera* camera, float3 direction)
 static inline Hit next_hit(const World* world, Path* path)
 {
   SET_ASIDE ulong latest = path->media.latest, earlier = path->media.earlier;
-  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin, path->direction,
-                              -path->behind, INFINITY, path->skip);
+  const Hit hit = closest_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, path->origin,
+                              path->direction, -path->behind, INFINITY, path->skip);
   path->media.latest = latest;
   path->media.earlier = earlier;
   return hit;
@@ -79,14 +82,19 @@ static inline bool is_blocked(const World* world, float3 from, float3 direction,
   return any_hit(world->geometry.nodes, world->geometry.blocks, world->geometry.root, from, direction, distance, skip);
 }
 
-static inline DeviceMaterial material_of(const World* world, int object) { return world->materials[world->objects[object].material]; }
+static inline DeviceMaterial material_of(const World* world, int object)
+{
+  return world->materials[world->objects[object].material];
+}
 
 // The absorption of the medium that the path has crossed up to its next hit, `distance` from its origin.
 static inline void lose_in_medium(const World* world, Path* path, float distance)
 {
 #if NEPHROID_ATTENUATORS > 0
   const int medium = medium_object(&path->media, world->objects);
-  if (medium >= 0) lose(&path->losses, material_of(world, medium).attenuator, (path->behind + distance) * world->scene.metres_per_unit);
+  if (medium >= 0)
+    lose(&path->losses, material_of(world, medium).attenuator,
+         (path->behind + distance) * world->scene.metres_per_unit);
 #endif
 }
 
@@ -99,22 +107,23 @@ static inline __global const float* index_of_band(const World* world, const Band
   return world->index_of_cluster + band->cluster * world->scene.material_count;
 }
 
-// The band of a path in a cluster. light: the one that its light comes from, or light_count for a path that any light may end at;
-// u in [0, 1) picks a wavelength by what the eye makes of the light's power.
+// The band of a path in a cluster. light: the one that its light comes from, or light_count for a path that any light
+// may end at; u in [0, 1) picks a wavelength by what the eye makes of the light's power.
 static inline Band choose_band(const World* world, int light, int cluster, float u)
 {
 #if NEPHROID_JITTER
   const int first = world->tables.first[cluster], count = world->tables.first[cluster + 1] - first;
   const int members = world->tables.first[world->scene.cluster_count];
-  return wavelength_of_cluster(cluster, world->tables.wavelengths + first, world->wavelength_cdf + light * members + first, count, u);
+  return wavelength_of_cluster(cluster, world->tables.wavelengths + first,
+                               world->wavelength_cdf + light * members + first, count, u);
 #else
   return whole_cluster(cluster);
 #endif
 }
 
 // Carries the path's derivatives to a surface and across the bend there, before `path` itself goes on.
-static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface, const Band* band,
-                                     const Bend* bend)
+static inline void bend_differential(const World* world, Path* path, uint triangle, const Surface* surface,
+                                     const Band* band, const Bend* bend)
 {
 #if NEPHROID_DIFFERENTIALS
   // From the path's origin: where that is not the light itself (Emission), nothing depends on the wavelength yet.
@@ -124,14 +133,15 @@ static inline void bend_differential(const World* world, Path* path, uint triang
   __global const float* slope_of = world->index_slope + band->cluster * world->scene.material_count;
   const int near = bend->near_material, far = bend->far_material;
   differential_through_bend(&path->differential, &world->geometry, triangle, surface, path->direction, bend,
-                            near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], near < 0 ? 0.0f : slope_of[near], far < 0 ? 0.0f : slope_of[far]);
+                            near < 0 ? 1.0f : n_of[near], far < 0 ? 1.0f : n_of[far], near < 0 ? 0.0f : slope_of[near],
+                            far < 0 ? 0.0f : slope_of[far]);
 #endif
 }
 
 // Takes the path on from a mirror or dielectric that it hit. choice: uniform in [0, 1).
 // *n_ratio: n before over n after. False where the path is inside too many media.
-static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface, const DeviceMaterial* material,
-                             const Band* band, float choice, float* n_ratio)
+static inline bool bend_path(const World* world, Path* path, uint triangle, const Surface* surface,
+                             const DeviceMaterial* material, const Band* band, float choice, float* n_ratio)
 {
   const bool from_outside = dot(path->direction, surface->geometric) < 0.0f;
   Bend bend;
@@ -143,7 +153,8 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   } else
 #endif
   {
-    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice, &bend, n_ratio))
+    if (!cross_interface(&path->media, surface, world->objects, index_of_band(world, band), path->direction, choice,
+                         &bend, n_ratio))
       return false;
   }
   bend_differential(world, path, triangle, surface, band, &bend);
@@ -154,8 +165,8 @@ static inline bool bend_path(const World* world, Path* path, uint triangle, cons
   return true;
 }
 
-// A light as one photon or shadow ray meets it, drawn by `place`, two numbers in [0, 1): of the environment *light becomes directional
-// light from one place.
+// A light as one photon or shadow ray meets it, drawn by `place`, two numbers in [0, 1): of the environment *light
+// becomes directional light from one place.
 static inline Source source_of(const World* world, int index, float2 place, DeviceLight* light)
 {
   Source source = {index, (float3)(1.0f)};
@@ -190,7 +201,8 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
   if (band->wavelength >= 0) {
     const int wavelength = made_late(band->wavelength);
     const float left = wavelength_left(&world->tables, losses, wavelength) * band->weight;
-    const float reflectance = reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + wavelength];
+    const float reflectance =
+        reflector < 0 ? 1.0f : world->tables.reflectance[reflector * WAVELENGTH_COUNT + wavelength];
     const float4 light_xyz = world->tables.light_xyz[light * WAVELENGTH_COUNT + wavelength];
     return left * (float4)(reflectance * light_xyz.xyz, light_xyz.w);
   }
@@ -198,11 +210,12 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
 #if NEPHROID_ATTENUATORS > 0
   if (losses->any || reflector < 0) return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
 #endif
-  return world->reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->reflector_count + reflector];
+  return world
+      ->reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->reflector_count + reflector];
 }
 
-// What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a reflector sends
-// back of it (-1: a white one).
+// What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a
+// reflector sends back of it (-1: a white one).
 IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source source, const Band* band, int reflector)
 {
   if (is_of_environment(world, source.light))
@@ -216,7 +229,8 @@ IN_PLACE float4 carried_light(const World* world, const Losses* losses, Source s
 static inline float row_share(const World* world, int light, const Band* band)
 {
 #if NEPHROID_JITTER
-  if (band->wavelength >= 0) return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
+  if (band->wavelength >= 0)
+    return band->weight * world->tables.light_xyz[light * WAVELENGTH_COUNT + band->wavelength].w;
 #endif
   const Losses none = no_losses();
   return attenuated_sum(&world->tables, &none, light, band->cluster, -1).w;
@@ -226,7 +240,8 @@ static inline float row_share(const World* world, int light, const Band* band)
 static inline float band_share(const World* world, Source source, const Band* band, float cluster_share)
 {
   if (is_of_environment(world, source.light))
-    return source.rgb.x * row_share(world, source.light, band) + source.rgb.y * row_share(world, source.light + 1, band) +
+    return source.rgb.x * row_share(world, source.light, band) +
+           source.rgb.y * row_share(world, source.light + 1, band) +
            source.rgb.z * row_share(world, source.light + 2, band);
   return NEPHROID_JITTER && band->wavelength >= 0 ? row_share(world, source.light, band) : cluster_share;
 }

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # %% [markdown]
 # # A sky as a few lights, and what they make of a glass ball
-# The sky is made here, as an array. `segment` cuts it into directional lights. Then the environment engine shows a ball's caustics under the
-# sky of a preset, and we watch the error fall.
+# The sky is made here, as an array. `segment` cuts it into directional lights. Then the environment engine shows a
+# ball's caustics under the sky of a preset, and we watch the error fall.
 
 # %%
 import matplotlib.pyplot as plt
@@ -22,8 +22,10 @@ axis.imshow(np.clip(sky, 0, 1) ** (1 / 2.2), extent=(-180, 180, -90, 90))
 for lights, style in ((24, "wo"), (96, "r.")):
     made = nephroid.segment(sky, lights)
     x, y, z = made.directions.T
-    axis.plot(np.degrees(np.arctan2(x, -z)), np.degrees(np.arcsin(y)), style, fillstyle="none", label=f"{len(made.directions)} lights")
-axis.set(title=f"all lights together: {made.flux.sum(axis=0).round(1)}", xlabel="degrees to the right of -z", ylabel="degrees up")
+    axis.plot(np.degrees(np.arctan2(x, -z)), np.degrees(np.arcsin(y)), style, fillstyle="none",
+              label=f"{len(made.directions)} lights")
+axis.set(title=f"all lights together: {made.flux.sum(axis=0).round(1)}", xlabel="degrees to the right of -z",
+         ylabel="degrees up")
 axis.legend(loc="lower right")
 figure.savefig("environment-lights.png", dpi=110)
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # %% [markdown]
 # # One piece of acrylic, three pictures
-# The inverse engine designs an object whose facets cast a ring, a cross and a disc at three distances. We watch the search, look at what its
-# mesh really casts, and save the mesh.
+# The inverse engine designs an object whose facets cast a ring, a cross and a disc at three distances. We watch the
+# search, look at what its mesh really casts, and save the mesh.
 
 # %%
 import matplotlib.pyplot as plt

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # %% [markdown]
 # # How fine must clusters of wavelengths be?
-# A prism of dense flint glass spreads a beam of white light. Wavelengths that the glass bends nearly alike share a path. Here the threshold
-# of that likeness varies, and each picture is held against one of 401 single wavelengths.
+# A prism of dense flint glass spreads a beam of white light. Wavelengths that the glass bends nearly alike share a
+# path. Here the threshold of that likeness varies, and each picture is held against one of 401 single wavelengths.
 
 # %%
 import matplotlib.pyplot as plt
@@ -23,7 +23,8 @@ axes[0].set(xlabel="wavelength (nm)", ylabel="n", title="N-SF11")
 for row, t in enumerate(thresholds):
     for number, cluster in enumerate(made[t].clusters):
         axes[1].plot(cluster.wavelengths_nm, np.full(len(cluster.wavelengths_nm), row), ".", color=f"C{number % 10}")
-axes[1].set(xlabel="wavelength (nm)", yticks=range(len(thresholds)), yticklabels=[f"{t}°: {len(made[t].clusters)}" for t in thresholds],
+axes[1].set(xlabel="wavelength (nm)", yticks=range(len(thresholds)),
+            yticklabels=[f"{t}°: {len(made[t].clusters)}" for t in thresholds],
             title="clusters by threshold")
 figure.savefig("spectral-clusters.png", dpi=110)
 
@@ -37,7 +38,8 @@ def caustic(preset: nephroid.Preset) -> NDArray[np.float32]:
 
 
 reference = caustic(scene.with_values({"spectral.method": "brute_force", "spectral.step_nm": 1}))
-# By default each path has a wavelength of its own, drawn from its cluster, so that no threshold is wrong. In the thesis, as here, one stands for all.
+# By default each path has a wavelength of its own, drawn from its cluster, so that no threshold is wrong. In the
+# thesis, as here, one stands for all.
 thesis = {"spectral.jitter": False, "spectral.differentials": False}
 pictures = {t: caustic(scene.with_values({"spectral.threshold_deg": t, **thesis})) for t in thresholds}
 

@@ -8,8 +8,8 @@
         picture = run.picture()             # height x width x 3, linear sRGB, where the core has it
         run.save("out/first-light")
 
-What is wrong with a call raises BadInput, a ValueError, with one line that says where, what and what to do; all else that fails raises
-Error, a RuntimeError.
+What is wrong with a call raises BadInput, a ValueError, with one line that says where, what and what to do; all else
+that fails raises Error, a RuntimeError.
 """
 from __future__ import annotations
 
@@ -23,13 +23,15 @@ from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence
 
 from .core import _nephroid as _core
 from .core._nephroid import BadInput, Error
-from .optics import Cluster, Clusters, Dispersion, Lights, clusters, compare, dispersion, read_picture, segment, wavelengths_nm
+from .optics import (Cluster, Clusters, Dispersion, Lights, clusters, compare, dispersion, read_picture, segment,
+                     wavelengths_nm)
 
 if TYPE_CHECKING:
     from .core._nephroid import Doubles, Floats
 
 __version__: str = _core.version
-__all__ = ["BadInput", "Cluster", "Clusters", "Dispersion", "Error", "Lights", "Preset", "Run", "Spectrum", "clusters", "compare", "devices",
+__all__ = ["BadInput", "Cluster", "Clusters", "Dispersion", "Error", "Lights", "Preset", "Run", "Spectrum", "clusters",
+           "compare", "devices",
            "dispersion", "presets", "read_picture", "run", "schema", "segment", "start", "sweep", "wavelengths_nm"]
 
 
@@ -45,19 +47,22 @@ def _overrides(values: Mapping[str, Any]) -> list[str]:
         try:
             overrides.append(f"{path}={_json.dumps(value, default=lambda of_numpy: of_numpy.tolist())}")
         except (AttributeError, TypeError, ValueError):
-            raise BadInput(f"{path}: expected what JSON can hold: numbers, text, lists and dicts; not {type(value).__name__}") from None
+            raise BadInput(f"{path}: expected what JSON can hold: numbers, text, lists and dicts; not "
+                           f"{type(value).__name__}") from None
     return overrides
 
 
 class Preset:
     """The whole state of a run. Immutable: set() gives another one.
 
-    name: a file, or the name of a shipped preset ("first-light"); both also without ".json". Throws BadInput as reading does.
+    name: a file, or the name of a shipped preset ("first-light"); both also without ".json". Throws BadInput as reading
+    does.
     """
 
     def __init__(self, name: str | _os.PathLike[str], values: Mapping[str, Any] | None = None) -> None:
         if not isinstance(name, (str, _os.PathLike)):
-            raise BadInput(f"Preset: expected the name of a preset or its file, not {type(name).__name__}; JSON as text goes to Preset.from_json")
+            raise BadInput(f"Preset: expected the name of a preset or its file, not {type(name).__name__}; JSON as "
+                           f"text goes to Preset.from_json")
         read = _core.read_presets(str(name), _overrides(values or {}))
         if len(read) > 1:
             raise BadInput(f"{name}: is a sweep of {len(read)} runs; expected one run; take nephroid.sweep('{name}')")
@@ -84,7 +89,8 @@ class Preset:
         return self._core.engine
 
     def set(self, path: str, value: Any) -> Preset:
-        """The preset with another value: set("scene.lights.0.power_w", 2). path: as for `nephroid run --set`. value: what JSON can hold."""
+        """The preset with another value: set("scene.lights.0.power_w", 2). path: as for `nephroid run --set`. value:
+        what JSON can hold."""
         return self.with_values({path: value})
 
     def with_values(self, values: Mapping[str, Any]) -> Preset:
@@ -164,7 +170,8 @@ _runs: _weakref.WeakSet[Run] = _weakref.WeakSet()
 class Run:
     """A run that works in the background; start() gives one. Leaving a `with` block stops it and frees its device.
 
-    Arrays show the core's memory, without a copy, and cannot be written to. They stay as they are, however the run goes on.
+    Arrays show the core's memory, without a copy, and cannot be written to. They stay as they are, however the run goes
+    on.
     """
 
     def __init__(self, preset: Preset, device: str = "") -> None:
@@ -206,7 +213,8 @@ class Run:
 
     @property
     def error(self) -> float | None:
-        """The newest error that it has measured, in the unit of stop.metric: against the reference, else its own estimate."""
+        """The newest error that it has measured, in the unit of stop.metric: against the reference, else its own
+        estimate."""
         column = self._snapshot_or_none()
         values = column.history().get(column.error_column()) if column else None
         return float(values[-1]) if values is not None and len(values) else None
@@ -218,7 +226,8 @@ class Run:
         return self._core.notes() + (shown.warnings if shown else [])
 
     def wait(self, seconds: float | None = None) -> Run:
-        """Until it is over, or for so long. Raises what made it fail. Ctrl-C raises KeyboardInterrupt at once, and the run goes on."""
+        """Until it is over, or for so long. Raises what made it fail. Ctrl-C raises KeyboardInterrupt at once, and the
+        run goes on."""
         end = None if seconds is None else _time.monotonic() + seconds
         pause = 0.001
         while self.running and (end is None or _time.monotonic() < end):
@@ -264,7 +273,8 @@ class Run:
         return shown
 
     def picture(self) -> Floats:
-        """The newest picture: height x width x 3, linear sRGB over the preset's white, row 0 at the top. Waits for the first one."""
+        """The newest picture: height x width x 3, linear sRGB over the preset's white, row 0 at the top. Waits for the
+        first one."""
         return self._snapshot().picture()
 
     def layers(self) -> dict[str, Floats]:
@@ -296,7 +306,8 @@ class Run:
         return dict(self._snapshot().phases)
 
     def spectrum(self, column: int, row: int) -> Spectrum:
-        """Of a pixel. Raises BadInput where the run keeps none; of the spectral engine those with "spectral.relight" true do."""
+        """Of a pixel. Raises BadInput where the run keeps none; of the spectral engine those with "spectral.relight"
+        true do."""
         height, width, _ = self.picture().shape
         if not (0 <= column < width and 0 <= row < height):
             raise BadInput(f"spectrum: there is none of the pixel {column}, {row}; expected one of {width} x {height}")
@@ -308,7 +319,8 @@ class Run:
                     raise BadInput(f"spectrum: {made.why_not}")
                 return Spectrum((column, row), made.layers(), list(made.notes))
             _time.sleep(0.005)
-        raise BadInput(f"spectrum: there is none of the pixel {column}, {row}; expected one of the picture, of a run that keeps spectra")
+        raise BadInput(f"spectrum: there is none of the pixel {column}, {row}; expected one of the picture, of a run "
+                       f"that keeps spectra")
 
     def save(self, folder: str | _os.PathLike[str]) -> None:
         """The files that `nephroid run` writes, but for a checkpoint."""

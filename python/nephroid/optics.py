@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What needs no run: dispersion, wavelength clusters, an environment's lights, metrics. All of it is in `nephroid` itself, too."""
+"""What needs no run: dispersion, wavelength clusters, an environment's lights, metrics. All of it is in `nephroid`
+itself, too."""
 from __future__ import annotations
 
 import os
@@ -77,14 +78,15 @@ class Clusters:
 def clusters(material: Dispersion | str | ArrayLike, threshold_deg: float = 0.1, method: str = "optimal") -> Clusters:
     """MetricSet of the 401 wavelengths may share a path.
 
-    material: a Dispersion, its name, or n for each of wavelengths_nm(). threshold_deg: the change of angle that is allowed in a cluster, in
-    the mean. method: "optimal" or "thesis".
+    material: a Dispersion, its name, or n for each of wavelengths_nm(). threshold_deg: the change of angle that is
+    allowed in a cluster, in the mean. method: "optimal" or "thesis".
     """
     if isinstance(material, str):
         material = dispersion(material)
     n = material.n(wavelengths_nm()) if isinstance(material, Dispersion) else np.asarray(material, dtype=float)
     made = _core.clusters(n, threshold_deg, method)
-    return Clusters(made["method"], made["threshold_deg"], made["total_theta_deg2"], [Cluster(**one) for one in made["clusters"]])
+    return Clusters(made["method"], made["threshold_deg"], made["total_theta_deg2"],
+                    [Cluster(**one) for one in made["clusters"]])
 
 
 @dataclass(frozen=True)
@@ -94,16 +96,19 @@ class Lights:
     directions: Doubles  #: [light][3], unit, where the light comes from
     flux: Doubles  #: [light][3], radiance times solid angle, linear sRGB
     solid_angles_sr: Doubles
-    rectangles: NDArray[np.int32]  #: [light]: face (+x, -x, +y, -y, +z, -z), x0, y0, x1, y1 in texels of the cube, half open
+    #: [light]: face (+x, -x, +y, -y, +z, -z), x0, y0, x1, y1 in texels of the cube, half open
+    rectangles: NDArray[np.int32]
     cube_size: int
 
 
 def segment(environment: ArrayLike | str | os.PathLike[str], lights: int, method: str = "variance") -> Lights:
-    """environment: a picture's file, or height x width x 3 texels; the centre column looks along -z, the top row along +y.
+    """environment: a picture's file, or height x width x 3 texels; the centre column looks along -z, the top row along
+    +y.
 
     lights: at least 6. method: "variance" or "thesis".
     """
-    texels = read_picture(environment) if isinstance(environment, (str, os.PathLike)) else _linear(environment, "environment")
+    is_file = isinstance(environment, (str, os.PathLike))
+    texels = read_picture(environment) if is_file else _linear(environment, "environment")
     return Lights(**_core.segment(texels, lights, method))
 
 
@@ -116,7 +121,8 @@ def _linear(values: ArrayLike, name: str) -> Floats:
     """As the core takes it. Unsigned integers are a picture's codes, and no light."""
     array = np.asarray(values)
     if array.dtype.kind == "u":
-        raise BadInput(f"{name}: is of {array.dtype}, which is not linear; expected linear sRGB; decode it to linear floats first, "
+        raise BadInput(f"{name}: is of {array.dtype}, which is not linear; expected linear sRGB; decode it to linear "
+                       f"floats first, "
                        "as nephroid.read_picture does")
     if array.dtype.kind not in "fib":
         raise BadInput(f"{name}: is of {array.dtype}; expected real numbers, linear sRGB; make floats of it")
@@ -124,5 +130,7 @@ def _linear(values: ArrayLike, name: str) -> Floats:
 
 
 def compare(picture: ArrayLike, reference: ArrayLike, mask: ArrayLike | None = None) -> dict[str, float]:
-    """All metrics of `nephroid compare`, of linear sRGB pictures of one size. mask: height x width, pixels that count."""
-    return _core.compare(_linear(picture, "picture"), _linear(reference, "reference"), None if mask is None else np.asarray(mask, dtype=bool))
+    """All metrics of `nephroid compare`, of linear sRGB pictures of one size. mask: height x width, pixels that
+    count."""
+    return _core.compare(_linear(picture, "picture"), _linear(reference, "reference"),
+                         None if mask is None else np.asarray(mask, dtype=bool))

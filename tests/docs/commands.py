@@ -4,17 +4,17 @@
 
     tests/docs/commands.py PROGRAM [PAGE...]      PAGE: a part of a page's name; `help` is the examples of `--help`
 
-A page's commands stand in ```sh blocks (documents.py reads them, and says what marks there are). They run in the order of the page, in
-a folder of its own that looks like a clone: `presets` and `kernels` are there. So a later command finds what an earlier one wrote.
-What is cut, and nothing else (CUT and cut_short):
+A page's commands stand in ```sh blocks (documents.py reads them, and says what marks there are). They run in the order
+of the page, in a folder of its own that looks like a clone: `presets` and `kernels` are there. So a later command finds
+what an earlier one wrote. What is cut, and nothing else (CUT and cut_short):
 
-- `run` has one pass, a picture of 64 x 64 pixels, no reference, few photons, few facets and a small bake, and of an animation two
-  frames. Where the command itself has at most 2 passes it keeps them. Before that, `plan` is asked about the same preset and settings
-  as they stand, at full size.
+- `run` has one pass, a picture of 64 x 64 pixels, no reference, few photons, few facets and a small bake, and of an
+  animation two frames. Where the command itself has at most 2 passes it keeps them. Before that, `plan` is asked about
+  the same preset and settings as they stand, at full size.
 - a window opens on a virtual display, with 3 frames and a screenshot. Where there is no Xvfb, it is not run.
 
-Every option that a command in running text has must be one of its verb. What was run, checked for its arguments only, and not run is
-printed at the end, with reasons.
+Every option that a command in running text has must be one of its verb. What was run, checked for its arguments only,
+and not run is printed at the end, with reasons.
 """
 import json
 import os
@@ -32,8 +32,10 @@ from documents import Page, help_page  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 CUT = ["--set", "scene.camera.resolution=[64,64]", "--set", "reference=null"]
-CUT_OF_ENGINE = {"spectral": ["--set", "spectral.photons_per_pass=1024"], "inverse": ["--set", "inverse.facets=[32,32]"],
-                 "environment": ["--set", "environment.photons=1024", "--set", "environment.resolution=16", "--set", "environment.spheres=4",
+CUT_OF_ENGINE = {"spectral": ["--set", "spectral.photons_per_pass=1024"],
+                 "inverse": ["--set", "inverse.facets=[32,32]"],
+                 "environment": ["--set", "environment.photons=1024", "--set", "environment.resolution=16", "--set",
+                                 "environment.spheres=4",
                                  "--set", "environment.lights=6"]}
 MOST_PASSES = 2
 LONGEST = 240  # seconds that one command may take, on a busy machine
@@ -81,7 +83,8 @@ class Display:
     """A virtual X display of this test's own."""
 
     def __init__(self):
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp", "-noreset"],
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp",
+                                        "-noreset"],
                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.name = ":" + self.server.stdout.readline().strip()
 
@@ -113,7 +116,8 @@ class Runner:
         cache = os.environ.get("POCL_CACHE_DIR", os.path.expanduser("~/.cache/pocl/kcache"))
         own = {"XDG_CACHE_HOME": f"{folder}/.cache", "XDG_STATE_HOME": f"{folder}/.state", "POCL_CACHE_DIR": cache}
         if self.display:  # the driver's memory is not ours: as tests/support/x_display.h says
-            own |= {"DISPLAY": self.display.name, "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0"}
+            own |= {"DISPLAY": self.display.name, "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "")
+                    + ":detect_leaks=0"}
         everything = os.environ | own
         everything.pop("WAYLAND_DISPLAY", None)
         return everything
@@ -130,7 +134,8 @@ class Runner:
             at = words.index(">")
             target, words = open(folder / words[at + 1], "w", encoding="utf-8"), words[:at] + words[at + 2:]
         try:
-            ended = subprocess.run([self.program, *words], cwd=folder, env=self.environment(folder), stdin=subprocess.DEVNULL,
+            ended = subprocess.run([self.program, *words], cwd=folder, env=self.environment(folder),
+                                   stdin=subprocess.DEVNULL,
                                    stdout=target, stderr=subprocess.PIPE, text=True, timeout=LONGEST)
         except subprocess.TimeoutExpired:
             self.fail(command, f"takes longer than {LONGEST} s as: {' '.join(words)}")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the commands and files of a page of the docs, for commands.py. What is recognised:
 
-    ```sh                      the lines that begin with `nephroid` or `./run.sh`; other lines are not ours; `# ...` is a comment
+    ```sh                      lines that begin with `nephroid` or `./run.sh`; others are not ours; `# ...` is a comment
     <!-- not run: REASON -->   before such a block: nothing of it is run
     <!-- planned: REASON -->   before such a block: the preset and its settings are checked by `nephroid plan`
     <!-- file: NAME -->        before any block: its text is the file NAME for the page's commands
@@ -37,7 +37,8 @@ def words_of(line):
 
 
 class Page:
-    """commands, inline: Command; files: (name, bytes); outside: (place, line) of commands that stand where no test runs them."""
+    """commands, inline: Command; files: (name, bytes); outside: (place, line) of commands that stand where no test runs
+    them."""
 
     def __init__(self, file, root):
         self.name = str(file.relative_to(root))
@@ -88,4 +89,5 @@ class help_page:  # noqa: N801: one page more, like Page
             found = re.findall(r"^  (nephroid(?: .*)?)$", help_of(verb), re.M)
             if not found:
                 self.outside.append((f"nephroid {verb} --help".replace("  ", " "), "has no example"))
-            self.commands += [Command(f"nephroid {verb} --help".replace("  ", " "), line, words_of(line[len("nephroid"):])) for line in found]
+            self.commands += [Command(f"nephroid {verb} --help".replace("  ", " "), line,
+                                      words_of(line[len("nephroid"):])) for line in found]

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Is the man page that the build made the program's own, does it have every verb and option of `--help`, and is it sound roff?
+"""Is the man page that the build made the program's own, does it have every verb and option of `--help`, and is it
+sound roff?
 
     tests/docs/manual.py PROGRAM PAGE
 
@@ -37,7 +38,8 @@ def main(program, page):
             options += 1
             if option not in plain:
                 failures.append(f"{option} of '{verb}' is missing")
-    readers = {"groff": ["groff", "-man", "-ww", "-Tutf8", "-z", page], "mandoc": ["mandoc", "-Tlint", "-Wwarning", page]}
+    readers = {"groff": ["groff", "-man", "-ww", "-Tutf8", "-z", page],
+               "mandoc": ["mandoc", "-Tlint", "-Wwarning", page]}
     asked = []
     for name, command in readers.items():
         if not shutil.which(name):
@@ -46,7 +48,8 @@ def main(program, page):
         said = subprocess.run(command, capture_output=True, text=True, check=False)
         if said.returncode or said.stdout + said.stderr:
             failures.append(f"{name}: {(said.stdout + said.stderr).strip()}")
-    print(f"{len(verbs)} verbs, {options} options, {len(roff.splitlines())} lines; read by: {', '.join(asked) or 'neither groff nor mandoc is here'}")
+    print(f"{len(verbs)} verbs, {options} options, {len(roff.splitlines())} lines; read by: "
+          f"{', '.join(asked) or 'neither groff nor mandoc is here'}")
     print("\n".join(failures))
     return 1 if failures else 0
 

@@ -4,7 +4,8 @@
 
     tests/docs/pages.py
 
-Pages to use are those of docs/ outside of docs/notebook/. Links are those to files of the project, with the heading after #.
+Pages to use are those of docs/ outside of docs/notebook/. Links are those to files of the project, with the heading
+after #.
 """
 import re
 import sys
@@ -21,7 +22,8 @@ def without_code(text):
 
 def anchors(file):
     """The names that GitHub gives the headings of a page."""
-    heads = re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", file.read_text(encoding="utf-8"), flags=re.M | re.S), re.M)
+    heads = re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", file.read_text(encoding="utf-8"), flags=re.M | re.S),
+                       re.M)
     return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
 
 
@@ -32,7 +34,8 @@ def main():
         name, text = page.relative_to(ROOT), page.read_text(encoding="utf-8")
         words = len(text.split())
         if DOCS in page.parents and DOCS / "notebook" not in page.parents and words > MOST_WORDS:
-            failures.append(f"{name}: has {words} words; expected at most {MOST_WORDS}; measurements belong into docs/notebook")
+            failures.append(f"{name}: has {words} words; expected at most {MOST_WORDS}; measurements belong into "
+                            f"docs/notebook")
         for link in re.findall(r"\]\(([^)\s]+)\)", without_code(text)):
             if "://" in link:
                 continue
@@ -46,7 +49,8 @@ def main():
                 failures.append(f"{name}: {link}: the page has no such heading")
     pictures = {file for file in DOCS.rglob("*") if file.suffix in (".png", ".jpg")}
     failures += [f"{file.relative_to(ROOT)}: no page shows it" for file in sorted(pictures - used)]
-    failures += [f"{page.relative_to(ROOT)}: no page leads to it" for page in pages if DOCS in page.parents and page not in used and page != DOCS / "README.md"]
+    failures += [f"{page.relative_to(ROOT)}: no page leads to it" for page in pages if DOCS in page.parents
+                 and page not in used and page != DOCS / "README.md"]
     print(f"{len(pages)} pages, {links} links, {len(pictures)} pictures")
     print("\n".join(failures))
     return 1 if failures or not links else 0

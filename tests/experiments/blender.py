@@ -4,8 +4,9 @@
 
     tests/experiments/blender.py PROGRAM OUT [PRESET...]
 
-Asks for Blender, ImageMagick and numpy (Debian's packages blender, imagemagick, python3-numpy). For each preset OUT has both pictures side by
-side, ours on the left. The table has quartiles of the light in Blender over ours, of blocks of 8 x 8 pixels that are not nearly black.
+Asks for Blender, ImageMagick and numpy (Debian's packages blender, imagemagick, python3-numpy). For each preset OUT has
+both pictures side by side, ours on the left. The table has quartiles of the light in Blender over ours, of blocks of 8
+x 8 pixels that are not nearly black.
 """
 import json
 import subprocess
@@ -33,11 +34,14 @@ def compare(program, out, preset):
     ours, export = folder / "run", folder / "export"
     quiet = {"check": True, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     subprocess.run([program, "run", preset, "-o", ours, "--seconds", SECONDS, "--set", "engine=spectral",
-                    *(["--set", "scene.environment.lights=true"] if preset.startswith("environment/") else [])], **quiet)
+                    *(["--set", "scene.environment.lights=true"] if preset.startswith("environment/") else [])],
+                   **quiet)
     subprocess.run([program, "export", preset, "-o", export, "--seconds", SECONDS], **quiet)
     for kind in ("OPEN_EXR", "PNG"):
-        subprocess.run(["blender", "-b", "--python", export / "blender.py", "-o", folder / "blender_", "-F", kind, "-f", "1"], **quiet)
-    subprocess.run(["convert", ours / "image.png", folder / "blender_0001.png", "+append", folder / "both.png"], check=True)
+        subprocess.run(["blender", "-b", "--python", export / "blender.py", "-o", folder / "blender_", "-F", kind, "-f",
+                        "1"], **quiet)
+    subprocess.run(["convert", ours / "image.png", folder / "blender_0001.png", "+append", folder / "both.png"],
+                   check=True)
     white = json.loads((export / "caustics.json").read_text())["white"]
     a, b = blocks(ours / "image.exr"), blocks(folder / "blender_0001.exr") / white
     seen = a > .02

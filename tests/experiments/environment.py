@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures engine 2 against engine 1 and prints the tables of docs/notebook/environment.md: the caustic layer where the camera sees a receiver, as the thesis compares.
+"""Measures engine 2 against engine 1 and prints the tables of docs/notebook/environment.md: the caustic layer where the
+camera sees a receiver, as the thesis compares.
 
-    tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--sky MAP] [--size N] [--reference-seconds S] [TABLE...]
+    tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--sky MAP] [--size N] [--reference-seconds S]
+    [TABLE...]
 
-Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1: how many, by which segmentation),
-spheres (3.2: how many, with which radii), histogram (figure 3.16), directions, refining; techniques (3.3 and figure 3.19: milliseconds, at 512 x 512, where
-kernels have been compiled before and the machine has nothing else to do), converging (error against time of all scenes, the same), estimate (a run's own
-estimate against its error). Engine 1 traces photons from every texel of the same environment
-through the same objects: no spheres, no segments. Two of its runs with different seeds tell the noise floor. What is in OUT is not made again. Needs numpy
-and ImageMagick.
+Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1:
+how many, by which segmentation), spheres (3.2: how many, with which radii), histogram (figure 3.16), directions,
+refining; techniques (3.3 and figure 3.19: milliseconds, at 512 x 512, where kernels have been compiled before and the
+machine has nothing else to do), converging (error against time of all scenes, the same), estimate (a run's own estimate
+against its error). Engine 1 traces photons from every texel of the same environment through the same objects: no
+spheres, no segments. Two of its runs with different seeds tell the noise floor. What is in OUT is not made again. Needs
+numpy and ImageMagick.
 """
 import argparse
 import json
@@ -23,14 +26,16 @@ from layers import lab, read_layer, read_mask, side_by_side, write_pfm, write_pn
 
 METRICS = ["lab_mean", "lab_max", "rel_l2", "iw_ssim"]
 SCENES = ["ball", "bunny", "glass", "ring", "brilliant"]
-TRUTH = {"engine": "spectral", "scene.environment.lights": True, "spectral.smoothing": "off", "spectral.direct": False, "spectral.estimator": "splat"}
+TRUTH = {"engine": "spectral", "scene.environment.lights": True, "spectral.smoothing": "off", "spectral.direct": False,
+         "spectral.estimator": "splat"}
 SEEDS = (101, 102)
 PRESETS = Path(__file__).resolve().parents[2] / "presets/environment"
 
 
 class Bench:
     def __init__(self, program, out, size, passes, seconds, sky=None):
-        self.program, self.out, self.size, self.passes, self.seconds, self.sky = program, Path(out), size, passes, seconds, sky
+        self.program, self.out, self.size, self.passes = program, Path(out), size, passes
+        self.seconds, self.sky = seconds, sky
         self.out.mkdir(parents=True, exist_ok=True)
 
     def call(self, *words):
@@ -45,7 +50,8 @@ class Bench:
         if not (folder / "image.exr").exists():
             settings = {"scene.camera.resolution": [self.size, self.size], **settings}
             if preset == "torus":
-                preset, settings = "ring", {"scene.materials.gold": {"type": "dielectric", "dispersion": 1.5}, "scene.environment.file": self.sky, **settings}
+                preset, settings = "ring", {"scene.materials.gold": {"type": "dielectric", "dispersion": 1.5},
+                                            "scene.environment.file": self.sky, **settings}
             sets = [word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value)}")]
             self.call("run", PRESETS / f"{preset}.json", "-o", folder, *words, *sets)
         return folder
@@ -57,15 +63,20 @@ class Bench:
         return self.run(preset, f"{preset}-reference-{seed}", {**TRUTH, "seed": seed}, "--seconds", self.seconds)
 
     def mask(self, preset, like):
-        """White where the camera sees a receiver: not glass, not a mirror, not the sky. like: the folder of a run of the preset."""
+        """White where the camera sees a receiver: not glass, not a mirror, not the sky. like: the folder of a run of
+        the preset."""
         target = self.out / f"{preset}-{self.size}-receivers.png"
         if not target.exists():
             scene = json.loads((like / "preset.json").read_text())["scene"]
-            black = {f"scene.materials.{name}": {"type": "diffuse", "reflectance": 0} for name, m in scene["materials"].items() if m["type"] != "diffuse"}
-            even = {"scene.environment": {"type": "constant", "colour": [1, 1, 1], "lights": True}, "engine": "spectral", "stop.passes": 16, "animation": None}
-            lit = read_layer(self.run(preset, f"{preset}-{self.size}-even", {**even, **black}) / "image.exr", "direct").sum(axis=-1)
+            black = {f"scene.materials.{name}": {"type": "diffuse", "reflectance": 0} for name,
+                     m in scene["materials"].items() if m["type"] != "diffuse"}
+            even = {"scene.environment": {"type": "constant", "colour": [1, 1, 1], "lights": True},
+                    "engine": "spectral", "stop.passes": 16, "animation": None}
+            lit = read_layer(self.run(preset, f"{preset}-{self.size}-even", {**even, **black}) / "image.exr",
+                             "direct").sum(axis=-1)
             most = np.pad(lit > 0, 1, mode="edge")
-            inside = np.all([most[1 + y:most.shape[0] - 1 + y, 1 + x:most.shape[1] - 1 + x] for y in (-1, 0, 1) for x in (-1, 0, 1)], axis=0)
+            inside = np.all([most[1 + y:most.shape[0] - 1 + y, 1 + x:most.shape[1] - 1 + x] for y in (-1, 0, 1)
+                             for x in (-1, 0, 1)], axis=0)
             write_png(target, np.repeat(inside[..., None], 3, axis=-1))
         return target
 
@@ -95,7 +106,8 @@ ONE = {"environment.refine": False}
 TABLES = {
     "lights": [({**ONE, "environment.lights": q, "environment.segmentation": way}, f"{way}, q = {q}")
                for way in ("thesis", "variance") for q in (8, 16, 24, 32, 40, 48, 56, 64)],
-    "spheres": [({**ONE, "environment.spheres": s, "environment.radii": way}, f"{way}, s = {s}") for way in ("quadratic", "uniform") for s in (8, 16, 32)],
+    "spheres": [({**ONE, "environment.spheres": s, "environment.radii": way}, f"{way}, s = {s}")
+                for way in ("quadratic", "uniform") for s in (8, 16, 32)],
     "directions": [({**ONE, "environment.directions": n}, f"{n} directions") for n in (26, 98)],
     "refining": [({"stop.passes": n}, f"refined, {n} passes") for n in (2, 4, 16, 64)],
 }
@@ -116,7 +128,8 @@ def scenes(bench, presets):
 
 
 def sheet(bench, name, ours, truth, mask):
-    """Ours, the reference, their difference; caustic layers, receivers only. Where the reference's 99.5th percentile is, there is white."""
+    """Ours, the reference, their difference; caustic layers, receivers only. Where the reference's 99.5th percentile
+    is, there is white."""
     receivers = read_mask(mask)
     pictures = [read_layer(run / "image.exr", "caustic") * receivers[..., None] for run in (ours, truth)]
     white = np.percentile(pictures[1][receivers].max(axis=-1), 99.5)
@@ -139,21 +152,25 @@ def histogram(bench, preset):
     first, second = (bench.reference(preset, seed) for seed in SEEDS)
     receivers = read_mask(bench.mask(preset, first))
     colours = [lab(read_layer(run / "image.exr", "caustic"))[receivers] for run in (first, second)]
-    head(f"histogram: {preset}, percent of the pixels by their distance in CIELAB", [f"{a} to {b}" for a, b in zip(BINS, BINS[1:])] + [f"{BINS[-1]} and more"])
+    head(f"histogram: {preset}, percent of the pixels by their distance in CIELAB",
+         [f"{a} to {b}" for a, b in zip(BINS, BINS[1:])] + [f"{BINS[-1]} and more"])
     for label, theirs in [("another reference", colours[1])] + [
-            (label, lab(read_layer(bench.ours(preset, settings) / "image.exr", "caustic"))[receivers]) for settings, label in TABLES["spheres"]]:
+            (label, lab(read_layer(bench.ours(preset, settings) / "image.exr", "caustic"))[receivers]) for settings,
+            label in TABLES["spheres"]]:
         distances = np.linalg.norm(theirs - colours[0], axis=-1)
         row(label, 100 * np.histogram(distances, [*BINS, np.inf])[0] / len(distances))
 
 
 LAMP = {"type": "directional", "direction": [0.3, -1, 0.2], "irradiance_w_m2": 3}
-TECHNIQUES = ["direct_buffers", "compiled_buffers", "direct_launches", "compiled_launches", "direct", "compiled", "eight_sets"]
+TECHNIQUES = ["direct", "compiled", "eight_sets"]
 
 
 def techniques(bench, preset):
-    """Table 3.3 and figure 3.19: from new lights to the caustics on all that is seen, of a coarse picture and a full one."""
+    """Table 3.3 and figure 3.19: from new lights to the caustics on all that is seen, of a coarse picture and a full
+    one."""
     def milliseconds(technique, q, s):
-        settings = {"scene.camera.resolution": [512, 512], "stop.passes": 1, **ONE, "environment.technique": technique, "environment.lights": max(q, 6),
+        settings = {"scene.camera.resolution": [512, 512], "stop.passes": 1, **ONE, "environment.technique": technique,
+                    "environment.lights": max(q, 6),
                     "environment.spheres": s}
         if q == 1:  # a lamp instead of the sky: an environment has six lights at least
             settings |= {"scene.environment": None, "scene.lights": [LAMP]}
@@ -168,7 +185,7 @@ def techniques(bench, preset):
         for s in (8, 16, 32):
             row(str(q), [s, *(milliseconds(technique, q, s) for technique in TECHNIQUES)])
     head(f"rate against q: {preset}, 512 x 512, s = 16, milliseconds", [str(q) for q in range(8, 65, 8)])
-    for technique in ("compiled_buffers", "direct", "eight_sets"):
+    for technique in ("compiled", "direct", "eight_sets"):
         row(technique, [milliseconds(technique, q, 16) for q in range(8, 65, 8)])
 
 
@@ -176,7 +193,8 @@ SECONDS = (0.1, 0.25, 0.5, 1, 2, 4, 8)
 
 
 def converging(bench, preset):
-    """Error against time: photons of engine 1 alone, the same smoothed, all that engine 1 renders, spheres, ours. Bakes are there before."""
+    """Error against time: photons of engine 1 alone, the same smoothed, all that engine 1 renders, spheres, ours. Bakes
+    are there before."""
     truth, other = (bench.reference(preset, seed) for seed in SEEDS)
     mask = bench.mask(preset, truth)
     bench.ours(preset, {})  # bakes
@@ -185,31 +203,37 @@ def converging(bench, preset):
             "engine 1, whole pictures": {"engine": "spectral", "scene.environment.lights": True, "seed": 201},
             "spheres": {"environment.refine": False}, "ours, whole pictures": {}}
     head(f"converging: {preset}, {bench.size} x {bench.size}; another reference: " +
-         ", ".join(f"{metric} {error:.3g}" for metric, error in zip(METRICS, bench.errors(other, truth, mask))), ["seconds", *METRICS])
+         ", ".join(f"{metric} {error:.3g}" for metric, error in zip(METRICS, bench.errors(other, truth, mask))),
+         ["seconds", *METRICS])
     for seconds in SECONDS:
         for way, settings in ways.items():
             if way == "spheres" and seconds != 1:
                 continue  # they stay as they are
-            run = bench.run(preset, f"{preset}-{bench.size}-{way.replace(', ', '-').replace(' ', '-')}-{seconds}s", settings, "--seconds", seconds)
+            run = bench.run(preset, f"{preset}-{bench.size}-{way.replace(', ', '-').replace(' ', '-')}-{seconds}s",
+                            settings, "--seconds", seconds)
             row(way, [seconds, *bench.errors(run, truth, mask)])
 
 
 def estimate(bench, preset):
-    """A run's own estimate over its error, of whole pictures, against a long run: the mean of eight seeds, with the lowest and the highest."""
+    """A run's own estimate over its error, of whole pictures, against a long run: the mean of eight seeds, with the
+    lowest and the highest."""
     def last(run):
         names, *_, values = ((run / "history.csv").read_text().splitlines())
         return dict(zip(names.split(","), map(float, values.split(","))))
 
     truth = bench.run(preset, f"{preset}-{bench.size}-long", {"stop.passes": 384, "seed": 301})
-    print(f"\nestimate: {preset}, {bench.size} x {bench.size}; the long run's own error: rel_l2 {last(truth)['estimated_rel_l2']:.2g}, lab_mean {last(truth)['estimated_lab_mean']:.2g}")
+    print(f"\nestimate: {preset}, {bench.size} x {bench.size}; the long run's own error: rel_l2 "
+          f"{last(truth)['estimated_rel_l2']:.2g}, lab_mean {last(truth)['estimated_lab_mean']:.2g}")
     for passes in (2, 8, 32):
         ratios = {metric: [] for metric in ("rel_l2", "lab_mean")}
         for seed in range(401, 409):
-            run = bench.run(preset, f"{preset}-{bench.size}-{passes}-passes-{seed}", {"stop.passes": passes, "seed": seed})
+            run = bench.run(preset, f"{preset}-{bench.size}-{passes}-passes-{seed}",
+                            {"stop.passes": passes, "seed": seed})
             errors = json.loads(bench.call("compare", run / "image.exr", truth / "image.exr", "--json"))
             for metric, values in ratios.items():
                 values.append(last(run)[f"estimated_{metric}"] / errors[metric])
-        print(f"{passes} passes: " + ", ".join(f"{metric} {np.mean(v):.2f} ({min(v):.2f} to {max(v):.2f})" for metric, v in ratios.items()), flush=True)
+        print(f"{passes} passes: " + ", ".join(f"{metric} {np.mean(v):.2f} ({min(v):.2f} to {max(v):.2f})" for metric,
+                                               v in ratios.items()), flush=True)
 
 
 ALONE = {"histogram": histogram, "techniques": techniques}
@@ -220,7 +244,8 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("program")
     arguments.add_argument("out")
-    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", "techniques", *OF_SCENES], metavar="TABLE")
+    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", "techniques", *OF_SCENES],
+                           metavar="TABLE")
     arguments.add_argument("--presets", nargs="+", default=SCENES, help="of `scenes`, `converging` and `estimate`")
     arguments.add_argument("--sky", help="a latitude-longitude map: adds a torus of glass under it to the scenes")
     arguments.add_argument("--size", type=int, default=192)

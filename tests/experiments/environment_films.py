@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures what engine 2's caustics do from frame to frame against engine 1, and prints the tables of docs/notebook/environment.md.
+"""Measures what engine 2's caustics do from frame to frame against engine 1, and prints the tables of
+docs/notebook/environment.md.
 
     tests/experiments/environment_films.py PROGRAM OUT [turning] [card]
 
-turning: the sky turns about a glass bunny, 120 frames; 12 pairs of neighbouring frames are compared. All frames are rendered of `ours` alone. OUT/turning-sheet.png: every fifth of them.
-card: a card passes between the sun and a ball, 24 frames, all compared. OUT/card-sheet.png: caustics of ours over the reference's.
-Frames that are in OUT are not made again. Needs numpy and ImageMagick.
+turning: the sky turns about a glass bunny, 120 frames; 12 pairs of neighbouring frames are compared. All frames are
+rendered of `ours` alone. OUT/turning-sheet.png: every fifth of them. card: a card passes between the sun and a ball, 24
+frames, all compared. OUT/card-sheet.png: caustics of ours over the reference's. Frames that are in OUT are not made
+again. Needs numpy and ImageMagick.
 """
 import argparse
 import json
@@ -17,7 +19,8 @@ from environment import ONE, PRESETS, SEEDS, TRUTH, Bench, head, name_of, row
 from layers import read_layer, read_mask, side_by_side, write_png
 
 THESIS = {**ONE, "environment.segmentation": "thesis"}
-WAYS = {"as in the thesis": THESIS, "as in the thesis, 98 directions": {**THESIS, "environment.directions": 98}, "variance, spheres alone": ONE,
+WAYS = {"as in the thesis": THESIS, "as in the thesis, 98 directions": {**THESIS, "environment.directions": 98},
+        "variance, spheres alone": ONE,
         "ours": {}, "ours, 98 directions": {"environment.directions": 98}}
 OURS = "ours"
 PAIRS = range(0, 120, 10)
@@ -80,20 +83,27 @@ def turning(bench, passes, reference_passes):
     truth = reference(bench, "turning-sky", SEEDS[0], both(PAIRS), reference_passes)
     noise = noise_of(truth, reference(bench, "turning-sky", SEEDS[1], (0, 1), reference_passes))
     level = quadratic([rms(pixels) for pixels in truth.pixels.values()])
-    print(f"\nturning: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: {np.sqrt(noise) / level:.2g} of its root mean square.")
-    head("change of the caustic layer in 3 degrees, parts of the reference's", ["change", "largest", "change that is wrong", "light, mean", "light, spread"])
+    print(f"\nturning: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: "
+          f"{np.sqrt(noise) / level:.2g} of its root mean square.")
+    head("change of the caustic layer in 3 degrees, parts of the reference's",
+         ["change", "largest", "change that is wrong", "light, mean", "light, spread"])
     for label, settings in WAYS.items():
         film = Film(bench, "turning-sky", name_of(f"turning-{bench.size}", settings), settings, both(PAIRS), passes)
         own, made = truth.changes(PAIRS), film.changes(PAIRS)
         whole = quadratic([size(change, 2 * noise) for change in own])
         light = film.light() / truth.light()
-        row(label, [quadratic([rms(change) for change in made]) / whole, max(map(rms, made)) / max(size(change, 2 * noise) for change in own),
-                    quadratic([size(ours - theirs, 2 * noise) for ours, theirs in zip(made, own)]) / whole, light.mean(), light.std()])
+        row(label, [quadratic([rms(change) for change in made]) / whole,
+                    max(map(rms, made)) / max(size(change, 2 * noise) for change in own),
+                    quadratic([size(ours - theirs, 2 * noise) for ours, theirs in zip(made, own)]) / whole,
+                    light.mean(), light.std()])
     film = Film(bench, "turning-sky", f"turning-{bench.size}", WAYS[OURS], range(120), passes)
     steps = [rms(change) / level for change in film.changes(range(119))]
-    print(f"\nours, all 119 steps, parts of the reference's root mean square: median {np.median(steps):.3g}, largest {max(steps):.3g}, "
-          f"smallest {min(steps):.3g}; the largest ratio of neighbouring steps {max(max(a / b, b / a) for a, b in zip(steps, steps[1:])):.3g}")
-    side_by_side([film.path(k).with_suffix(".png") for k in range(0, 120, 5)], 8, bench.size, bench.out / "turning-sheet.png")
+    print(f"\nours, all 119 steps, parts of the reference's root mean square: median {np.median(steps):.3g}, largest "
+          f"{max(steps):.3g}, "
+          f"smallest {min(steps):.3g}; the largest ratio of neighbouring steps "
+          f"{max(max(a / b, b / a) for a, b in zip(steps, steps[1:])):.3g}")
+    side_by_side([film.path(k).with_suffix(".png") for k in range(0, 120, 5)], 8, bench.size,
+                 bench.out / "turning-sheet.png")
 
 
 def card(bench, passes, reference_passes):
@@ -103,19 +113,24 @@ def card(bench, passes, reference_passes):
     films = {"reference": truth}
     for way in ("as in the thesis", OURS):
         films[way] = Film(bench, "passing-card", name_of(f"card-{bench.size}", WAYS[way]), WAYS[way], frames, passes)
-    print(f"\ncard: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: {np.sqrt(noise) / rms(truth.pixels[0]):.2g} of its "
+    print(f"\ncard: {bench.size} x {bench.size}, {passes} passes. Noise of the reference: "
+          f"{np.sqrt(noise) / rms(truth.pixels[0]):.2g} of its "
           "root mean square in frame 0.")
     head("light on receivers, parts of the reference's in frame 0", [str(k) for k in frames])
     for label, film in films.items():
         row(label, film.light() / truth.light()[0])
-    head("change to the next frame, parts of the reference's root mean square in frame 0", [str(k) for k in frames[:-1]])
+    head("change to the next frame, parts of the reference's root mean square in frame 0",
+         [str(k) for k in frames[:-1]])
     for label, film in films.items():
-        row(label, [size(change, 2 * noise if film is truth else 0) / rms(truth.pixels[0]) for change in film.changes(frames[:-1])])
+        row(label, [size(change, 2 * noise if film is truth else 0) / rms(truth.pixels[0])
+                    for change in film.changes(frames[:-1])])
     receivers = read_mask(bench.mask("passing-card", truth.folder))[..., None]
     for part, film in (("reference", truth), ("ours", films[OURS])):
         for k in frames:
-            write_png(bench.out / f"card-{part}-{k}.png", read_layer(film.path(k), "caustic") * receivers / np.percentile(truth.pixels[0], 99.5))
-    side_by_side([bench.out / f"card-{part}-{k}.png" for part in ("ours", "reference") for k in range(2, 22, 2)], 10, 96, bench.out / "card-sheet.png")
+            write_png(bench.out / f"card-{part}-{k}.png",
+                      read_layer(film.path(k), "caustic") * receivers / np.percentile(truth.pixels[0], 99.5))
+    side_by_side([bench.out / f"card-{part}-{k}.png" for part in ("ours", "reference") for k in range(2, 22, 2)], 10,
+                 96, bench.out / "card-sheet.png")
 
 
 def main():

@@ -4,13 +4,14 @@
 
     tests/experiments/floors.py [bars|star...]
 
-Light is a sum of rays, each from a place of the object in a direction; a ray meets every receiver. Their powers are what least squares ask
-for, at each picture's own brightness (multiplicative steps, as ISRA has them: Daube-Witherspoon and Muehllehner 1986). No surface bends that
-light, so that the error is below what an object of glass can reach, but for the rays' number: pictures have 32 x 32 cells here.
+Light is a sum of rays, each from a place of the object in a direction; a ray meets every receiver. Their powers are
+what least squares ask for, at each picture's own brightness (multiplicative steps, as ISRA has them: Daube-Witherspoon
+and Muehllehner 1986). No surface bends that light, so that the error is below what an object of glass can reach, but
+for the rays' number: pictures have 32 x 32 cells here.
 
-"even": every place of the object sends as much as any other, as a flat front in parallel light does. "free": each sends what it likes, as
-behind any optics before the facets: a second refracting side, lens arrays, a lamp. "half dark": each sends up to twice its share or less, and
-what is left over is thrown away. Needs numpy.
+"even": every place of the object sends as much as any other, as a flat front in parallel light does. "free": each sends
+what it likes, as behind any optics before the facets: a second refracting side, lens arrays, a lamp. "half dark": each
+sends up to twice its share or less, and what is left over is thrown away. Needs numpy.
 """
 import sys
 
@@ -48,7 +49,8 @@ SETS = {"bars": (np.array([100.0, 150, 200, 250]), [bar(False), bar(True), bar(F
 
 
 def error(distances, pictures, size=SIDE, light="even", offsets=None, room=75.0):
-    """rel_l2 of each picture, and the part of the light on each receiver. room: how far from the axis rays go, half way."""
+    """rel_l2 of each picture, and the part of the light on each receiver. room: how far from the axis rays go, half
+    way."""
     random = np.random.default_rng(1)
     offsets = np.zeros((len(distances), 2)) if offsets is None else np.array(offsets, float)
     place = (np.arange(PLACES) + 0.5) / PLACES * size - size / 2
@@ -95,8 +97,10 @@ def main():
         distances, pictures = SETS[name]
         apart = 100 * 2.0 ** np.linspace(0, 3, len(distances))
         tries = {"as it is": {}, "free light": {"light": "free"}, "half dark": {"light": "half"},
-                 "object of 75 mm": {"size": 75.0}, "object of 140 mm": {"size": 140.0}, "object of 200 mm": {"size": 200.0},
-                 "twice as far": {"distances": 2 * distances, "room": 120.0}, "to 800 mm, evenly in factors": {"distances": apart, "room": 90.0}}
+                 "object of 75 mm": {"size": 75.0}, "object of 140 mm": {"size": 140.0},
+                 "object of 200 mm": {"size": 200.0},
+                 "twice as far": {"distances": 2 * distances, "room": 120.0},
+                 "to 800 mm, evenly in factors": {"distances": apart, "room": 90.0}}
         if name == "bars":
             tries["lying ones first"] = {"pictures": [pictures[0]] * 2 + [pictures[1]] * 2}
             for by in (15, 30):

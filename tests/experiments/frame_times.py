@@ -4,10 +4,11 @@
 
     tests/experiments/frame_times.py PROGRAM [ENGINE...]     of these engines, or of spectral, environment and inverse
 
-For each engine a preset is opened in a window under Xvfb, twice: the first opening compiles its kernels, the second is the warm start. Then
-its file is changed, which the window takes over as an edit, and keys of xdotool undo and redo that edit while the run works. What is printed
-comes from the file of --frame-times, so an edit's times are those of the frames in which it was seen. Nothing else should run on the
-machine: it draws by software, and with PoCL it computes on the same cores. Needs Xvfb and xdotool.
+For each engine a preset is opened in a window under Xvfb, twice: the first opening compiles its kernels, the second is
+the warm start. Then its file is changed, which the window takes over as an edit, and keys of xdotool undo and redo that
+edit while the run works. What is printed comes from the file of --frame-times, so an edit's times are those of the
+frames in which it was seen. Nothing else should run on the machine: it draws by software, and with PoCL it computes on
+the same cores. Needs Xvfb and xdotool.
 """
 import csv
 import json
@@ -37,7 +38,8 @@ class Window:
         self.environment = dict(os.environ, DISPLAY=display, XDG_STATE_HOME=folder)
         self.began = time.monotonic()
         self.log = open(Path(folder) / "log", "w")
-        self.child = subprocess.Popen([program, str(preset), "--frame-times", str(self.times)], stdout=self.log, stderr=self.log,
+        self.child = subprocess.Popen([program, str(preset), "--frame-times", str(self.times)], stdout=self.log,
+                                      stderr=self.log,
                                       env=self.environment)
         self.opened_s = None
 
@@ -69,7 +71,8 @@ class Window:
         subprocess.run(["xdotool", "key", chord], env=self.environment, check=True)
 
     def focus(self):
-        found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "Nephroid"], env=self.environment, capture_output=True,
+        found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "Nephroid"], env=self.environment,
+                               capture_output=True,
                                text=True, check=True).stdout.split()
         subprocess.run(["xdotool", "windowfocus", "--sync", found[0]], env=self.environment, check=True)
 
@@ -89,13 +92,15 @@ def has_worked(frame):
 
 
 def begins(before, frame):
-    """Whether a run was begun between two frames. A run that takes an edit on is the same run, and what is done of it begins anew."""
+    """Whether a run was begun between two frames. A run that takes an edit on is the same run, and what is done of it
+    begins anew."""
     return frame["run"] > before["run"] or frame["fraction"] < before["fraction"]
 
 
 def after_edits(frames):
-    """Seconds from the start of the frame that sees an edit until its run is begun, and until some of it is done. An edit is carried out
-    before the frame is drawn, so what is told of that frame's own share is the most that it can have taken."""
+    """Seconds from the start of the frame that sees an edit until its run is begun, and until some of it is done. An
+    edit is carried out before the frame is drawn, so what is told of that frame's own share is the most that it can
+    have taken."""
     begun, done = [], []
     for i in range(1, len(frames)):
         if frames[i]["edits"] == frames[i - 1]["edits"]:
@@ -133,7 +138,8 @@ def measure(program, engine, display):
         time.sleep(2)  # the window has looked at the file by then
         before = len(window.frames())
         preset.write_text(json.dumps(base | edit))
-        window.until("the changed file is taken over", lambda f: any(begins(f[i - 1], f[i]) for i in range(before, len(f))))
+        window.until("the changed file is taken over", lambda f: any(begins(f[i - 1], f[i])
+                                                                     for i in range(before, len(f))))
         window.until("its run works", lambda f: has_worked(f[-1]))
         first = len(window.frames())
         for i in range(EDITS):
@@ -147,19 +153,24 @@ def measure(program, engine, display):
 
 
 def main(program, engines):
-    server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp", "-noreset"],
+    server = subprocess.Popen(["Xvfb", "-displayfd", "1", "-screen", "0", "1600x1000x24", "-nolisten", "tcp",
+                               "-noreset"],
                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     display = ":" + server.stdout.readline().strip()
     try:
-        print("            our own share of a frame, ms         | what it computes   | from an edit to its run, ms: begun, some done | seconds to the first image")
-        print("engine      frames  median    95 %    99 %     max |  median    99 %    |   edits  median     max  median     max       |    cold    warm")
+        print("            our own share of a frame, ms         | what it computes   | from an edit to its run, ms: "
+              "begun, some done | seconds to the first image")
+        print("engine      frames  median    95 %    99 %     max |  median    99 %    |   edits  median     max  "
+              "median     max       |    cold    warm")
         for engine in engines:
             frames, cold_s, warm_s = measure(program, engine, display)
             own, computed = ([f[name] for f in frames] for name in ("own_ms", "own_cpu_ms"))
             begun, done = ([1000 * s for s in times] for times in after_edits(frames))
             figures = [percentile(t, part) if t else float("nan") for t in (begun, done) for part in (0.5, 1)]
-            print(f"{engine:11} {len(own):6} " + " ".join(f"{percentile(own, part):7.2f}" for part in (0.5, 0.95, 0.99, 1))
-                  + f" | {percentile(computed, 0.5):7.2f} {percentile(computed, 0.99):7.2f}    | {len(begun):3}/{len(done):3} " + " ".join(f"{value:7.0f}" for value in figures)
+            print(f"{engine:11} {len(own):6} " + " ".join(f"{percentile(own, part):7.2f}"
+                                                          for part in (0.5, 0.95, 0.99, 1))
+                  + f" | {percentile(computed, 0.5):7.2f} {percentile(computed, 0.99):7.2f}    | "
+                    f"{len(begun):3}/{len(done):3} " + " ".join(f"{value:7.0f}" for value in figures)
                   + f"       | {cold_s:7.2f} {warm_s:7.2f}", flush=True)
     finally:
         server.terminate()
@@ -169,6 +180,7 @@ def main(program, engines):
 if __name__ == "__main__":
     unknown = [name for name in sys.argv[2:] if name not in PRESETS]
     if len(sys.argv) < 2 or not os.access(sys.argv[1], os.X_OK) or unknown:
-        sys.exit("usage: frame_times.py PROGRAM [ENGINE...], PROGRAM being the program, as build/release/bin/nephroid; engines: "
+        sys.exit("usage: frame_times.py PROGRAM [ENGINE...], PROGRAM being the program, as build/release/bin/nephroid; "
+                 "engines: "
                  + ", ".join(PRESETS))
     main(sys.argv[1], sys.argv[2:] or list(PRESETS))

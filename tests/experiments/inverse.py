@@ -41,11 +41,13 @@ class Experiments:
         judged, believed, phases = r["judged"], r["believed"], r["phase_seconds"]
         each = ", ".join(f"{receiver['cost']:.3f}" for receiver in r["inverse"]["receivers"])
         light = r["light"]
-        print(f"| {name} | {judged['cost']:.3f} | {believed['cost']:.3f} | {each} | {judged['rel_l2']:.3f} | {judged['missed']:.3f} | "
+        print(f"| {name} | {judged['cost']:.3f} | {believed['cost']:.3f} | {each} | {judged['rel_l2']:.3f} | "
+              f"{judged['missed']:.3f} | "
               f"{light['reflected']:.3f} | {light['by_walls']:.4f} | {phases['slopes']:.1f} + {phases['judge']:.1f} |")
 
     def table(self, names):
-        print("| preset | judged cost | believed | each picture | rel_l2 | missed | reflected | by walls | seconds: slopes + judge |\n" + "|---" * 9 + "|")
+        print("| preset | judged cost | believed | each picture | rel_l2 | missed | reflected | by walls | seconds: "
+              "slopes + judge |\n" + "|---" * 9 + "|")
         for name in names:
             self.row(f"`{name}`", self.run(name))
 
@@ -59,7 +61,8 @@ class Experiments:
         """What the sets want, cast and lack, in one picture: docs/inverse-sets.jpg. Needs ImageMagick."""
         for name in SETS:
             self.run(name)
-        subprocess.run(["montage", *(str(self.out / f"{name}--" / "image.png") for name in SETS), "-tile", "3x2", "-geometry", "480x480+4+4", "-background", "#262626",
+        subprocess.run(["montage", *(str(self.out / f"{name}--" / "image.png") for name in SETS), "-tile", "3x2",
+                        "-geometry", "480x480+4+4", "-background", "#262626",
                         "-quality", "85", str(self.out / "inverse-sets.jpg")], check=True)
 
     def seeds(self):
@@ -67,32 +70,41 @@ class Experiments:
         for name in SETS[1:4]:
             folder = [self.out / f"{name}-seed{seed}" for seed in (1, 2, 3)]
             for seed, f in enumerate(folder):
-                subprocess.run([self.program, "run", f"inverse/{name}", "-o", str(f), "--seed", str(seed + 1)], check=True,
+                subprocess.run([self.program, "run", f"inverse/{name}", "-o", str(f), "--seed", str(seed + 1)],
+                               check=True,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             print(name, *(f"{json.loads((f / 'run.json').read_text())['judged']['cost']:.4f}" for f in folder))
 
     def relief(self):
-        print("| heights | max_relief_mm | judged cost | relief mm | walls mm^2 | light by walls |\n" + "|---" * 6 + "|")
-        for heights, limit in [("flat", None), ("flat", 0.7), ("flat", 0.6), ("flat", 0.5), ("flat", 0.4), ("free", 1), ("free", 2), ("free", 5),
+        print("| heights | max_relief_mm | judged cost | relief mm | walls mm^2 | light by walls |\n" + "|---" * 6
+              + "|")
+        for heights, limit in [("flat", None), ("flat", 0.7), ("flat", 0.6), ("flat", 0.5), ("flat", 0.4), ("free", 1),
+                               ("free", 2), ("free", 5),
                                ("free", 10), ("free", None)]:
             sets = [f"heights={heights}"] + ([f"max_relief_mm={limit}"] if limit else [])
             r = self.run("shapes", *sets)
             o = r["object"]
-            print(f"| {heights} | {limit or '-'} | {r['judged']['cost']:.4f} | {o['relief_mm']:.2f} | {o['wall_area_mm2']:.0f} | "
+            print(f"| {heights} | {limit or '-'} | {r['judged']['cost']:.4f} | {o['relief_mm']:.2f} | "
+                  f"{o['wall_area_mm2']:.0f} | "
                   f"{r['light']['by_walls']:.4f} |")
 
     def smoothing(self):
-        print("| smoothing_normals | judged cost | relief mm | walls mm^2 | with free heights: judged | walls mm^2 |\n" + "|---" * 6 + "|")
+        print("| smoothing_normals | judged cost | relief mm | walls mm^2 | with free heights: judged | walls mm^2 |\n"
+              + "|---" * 6 + "|")
         for weight in [0, 0.01, 0.1, 0.3, 1]:
-            r, free = self.run("shapes", f"smoothing_normals={weight}"), self.run("shapes", f"smoothing_normals={weight}", "heights=free")
-            print(f"| {weight} | {r['judged']['cost']:.4f} | {r['object']['relief_mm']:.2f} | {r['object']['wall_area_mm2']:.0f} | "
+            r, free = self.run("shapes", f"smoothing_normals={weight}"), self.run("shapes",
+                                                                                  f"smoothing_normals={weight}",
+                                                                                  "heights=free")
+            print(f"| {weight} | {r['judged']['cost']:.4f} | {r['object']['relief_mm']:.2f} | "
+                  f"{r['object']['wall_area_mm2']:.0f} | "
                   f"{free['judged']['cost']:.4f} | {free['object']['wall_area_mm2']:.0f} |")
 
     def speed(self):
         """Judged cost after so many seconds of assigning."""
         for seconds in (1, 2, 5, 10, 60):
             r = self.run("shapes", seconds=seconds)
-            print(f"{seconds} s: judged {r['judged']['cost']:.4f}, {r['phase_seconds']['slopes']:.1f} + {r['phase_seconds']['judge']:.1f} s, {r['sweeps']} sweeps")
+            print(f"{seconds} s: judged {r['judged']['cost']:.4f}, {r['phase_seconds']['slopes']:.1f} + "
+                  f"{r['phase_seconds']['judge']:.1f} s, {r['sweeps']} sweeps")
         r = self.run("shapes", "facets=[512,512]", "cells=[256,256]", passes=4)
         print(f"512: judged {r['judged']['cost']:.4f}, believed {r['believed']['cost']:.4f}, {r['phase_seconds']}")
 
@@ -101,13 +113,16 @@ class Experiments:
         for name in SETS[1:4]:
             thesis, assign = self.run(name, "method=thesis", passes=251), self.run(name)
             t, goal = thesis["phase_seconds"]["slopes"], thesis["believed"]
-            print(f"{name}: thesis {t:.1f} s, judged cost {thesis['judged']['cost']:.3f}, rel_l2 {thesis['judged']['rel_l2']:.3f}; "
-                  f"assign {assign['phase_seconds']['slopes']:.1f} s, {assign['judged']['cost']:.3f}, {assign['judged']['rel_l2']:.3f}")
+            print(f"{name}: thesis {t:.1f} s, judged cost {thesis['judged']['cost']:.3f}, rel_l2 "
+                  f"{thesis['judged']['rel_l2']:.3f}; "
+                  f"assign {assign['phase_seconds']['slopes']:.1f} s, {assign['judged']['cost']:.3f}, "
+                  f"{assign['judged']['rel_l2']:.3f}")
             print("  ", {k: round(v, 4) for k, v in thesis["thesis"].items()})
             for metric in ("cost", "rel_l2"):
                 first = next((h for h in assign["history"] if float(h[metric]) <= goal[metric]), None)
                 if first:
-                    print(f"   believed {metric} {goal[metric]:.3f}: reached by assign within {float(first['seconds']):.2f} s (row {first['sweep']})")
+                    print(f"   believed {metric} {goal[metric]:.3f}: reached by assign within "
+                          f"{float(first['seconds']):.2f} s (row {first['sweep']})")
 
 
 def main():

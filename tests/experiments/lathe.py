@@ -4,8 +4,8 @@
 
 usage: lathe.py [FOLDER]    (presets/environment)
 
-A profile is a list of (radius, height) from below to above along the outside; about the y axis it becomes a closed mesh that faces
-outwards. Arcs are fine enough for smooth normals. Centimetres.
+A profile is a list of (radius, height) from below to above along the outside; about the y axis it becomes a closed mesh
+that faces outwards. Arcs are fine enough for smooth normals. Centimetres.
 """
 import math
 import pathlib
@@ -21,12 +21,14 @@ def arc(centre, radius, begin_deg, end_deg, steps):
 def drinking_glass():
     """10 high, walls of 0.24, a floor of 1, rounded wherever it would be sharp. Its sides are straight up."""
     return ([(0, 0), (1.5, 0), (2.9, 0)] + arc((3.1, 0.4), 0.4, -90, 0, 6) + [(3.5, 2), (3.5, 5), (3.5, 8)] +
-            arc((3.38, 9.88), 0.12, 0, 180, 8) + [(3.26, 8), (3.26, 5), (3.26, 2)] + arc((2.66, 1.6), 0.6, 0, -90, 8) + [(1.3, 1), (0, 1)])
+            arc((3.38, 9.88), 0.12, 0, 180, 8) + [(3.26, 8), (3.26, 5), (3.26, 2)] + arc((2.66, 1.6), 0.6, 0, -90, 8)
+            + [(1.3, 1), (0, 1)])
 
 
 def water():
     """Reaches 0.05 into the floor and the walls of the glass, which hides it there; its top is at 6.5."""
-    return ([(0, 0.95), (1.3, 0.95)] + arc((2.66, 1.6), 0.65, -90, 0, 8) + [(3.31, 2), (3.31, 4), (3.31, 6.5), (3.27, 6.5), (1.6, 6.5), (0, 6.5)])
+    return ([(0, 0.95), (1.3, 0.95)] + arc((2.66, 1.6), 0.65, -90, 0, 8)
+            + [(3.31, 2), (3.31, 4), (3.31, 6.5), (3.27, 6.5), (1.6, 6.5), (0, 6.5)])
 
 
 def ring():
@@ -36,7 +38,8 @@ def ring():
 
     def place(a):
         across, up = math.cos(a), math.sin(a)
-        return (1 + (0.16 if across > 0 else 0.06) * math.copysign(abs(across) ** 0.8, across), 0.3 * math.copysign(abs(up) ** 0.8, up))
+        return (1 + (0.16 if across > 0 else 0.06) * math.copysign(abs(across) ** 0.8, across),
+                0.3 * math.copysign(abs(up) ** 0.8, up))
 
     return [place(a) for a in around]
 
@@ -66,7 +69,8 @@ def turn(profile, segments, closes):
 
 def main():
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "presets/environment")
-    for name, profile, closes in [("drinking-glass", drinking_glass(), False), ("water", water(), False), ("ring", ring(), True)]:
+    for name, profile, closes in [("drinking-glass", drinking_glass(), False), ("water", water(), False),
+                                  ("ring", ring(), True)]:
         text = "# made by tests/experiments/lathe.py\n" + turn(profile, 96, closes)
         (folder / f"{name}.obj").write_text(text)
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Layers of image.exr as arrays of numpy, and arrays as PNG. The one library that is asked for is numpy; ImageMagick writes the PNG."""
+"""Layers of image.exr as arrays of numpy, and arrays as PNG. The one library that is asked for is numpy; ImageMagick
+writes the PNG."""
 import struct
 import subprocess
 import zlib
@@ -33,7 +34,8 @@ def channels_of(text):
 
 
 def unzip(block, size):
-    """Undoes OpenEXR's ZIP: deflate, then differences, of even bytes and then odd ones. A block that would grow is stored as it is."""
+    """Undoes OpenEXR's ZIP: deflate, then differences, of even bytes and then odd ones. A block that would grow is
+    stored as it is."""
     if len(block) == size:
         return block
     steps = np.frombuffer(zlib.decompress(block), np.uint8).astype(np.int64)
@@ -78,13 +80,15 @@ def write_png(path, picture):
 
 def write_pfm(path, picture):
     """Linear, without loss. A PFM's lines go up."""
-    path.write_bytes(b"PF\n%d %d\n-1.0\n" % (picture.shape[1], picture.shape[0]) + picture[::-1].astype("<f4").tobytes())
+    path.write_bytes(b"PF\n%d %d\n-1.0\n" % (picture.shape[1], picture.shape[0])
+                     + picture[::-1].astype("<f4").tobytes())
 
 
 def read_mask(path):
     """Height x width, where a PNG is white."""
     done = subprocess.run(["convert", str(path), "-depth", "8", "rgb:-"], capture_output=True, check=True)
-    size = subprocess.run(["identify", "-format", "%w %h", str(path)], capture_output=True, check=True, text=True).stdout
+    size = subprocess.run(["identify", "-format", "%w %h", str(path)], capture_output=True, check=True,
+                          text=True).stdout
     width, height = map(int, size.split())
     return np.frombuffer(done.stdout, np.uint8).reshape(height, width, 3)[..., 0] > 127
 
@@ -92,7 +96,8 @@ def read_mask(path):
 def side_by_side(files, columns, size, target):
     """One PNG of many, each `size` pixels wide and high."""
     names = map(str, files)
-    subprocess.run(["montage", *names, "-tile", f"{columns}x", "-geometry", f"{size}x{size}+1+1", "-background", "black", "-depth", "8", str(target)], check=True)
+    subprocess.run(["montage", *names, "-tile", f"{columns}x", "-geometry", f"{size}x{size}+1+1", "-background",
+                    "black", "-depth", "8", str(target)], check=True)
 
 
 def lab(picture):

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Judges a lens of engine 3 by its STL alone, with no line of the program's own code. Needs numpy and Pillow.
 
-    tests/experiments/lens.py OUT/object.stl --index 1.55 --distance 150 --picture photo.png     rel_l2 at 64, 128 and 256 cells
-    tests/experiments/lens.py OUT/object.stl --index 1.55 --distance 150 --rings 128             of an even grey, by 128 x 128 facets
+    tests/experiments/lens.py OUT/object.stl --index 1.55 --distance 150 --picture photo.png   rel_l2 at 64 to 256 cells
+    tests/experiments/lens.py OUT/object.stl --index 1.55 --distance 150 --rings 128           of even grey, 128 x 128
 
-Parallel light falls straight onto the front, and on each triangle of the relief as much as it covers of the front: at random points of
-the triangle. Snell's law in vectors and Fresnel's equations bend and weaken it. A ray leaves a height field for good where no triangle is
-as steep as the ray would have to be to meet it again. That is checked, so every point is one ray.
+Parallel light falls straight onto the front, and on each triangle of the relief as much as it covers of the front: at
+random points of the triangle. Snell's law in vectors and Fresnel's equations bend and weaken it. A ray leaves a height
+field for good where no triangle is as steep as the ray would have to be to meet it again. That is checked, so every
+point is one ray.
 """
 import argparse
 import sys
@@ -52,11 +53,13 @@ def trace(stl, n, distance, receiver, cells, rays, seed):
     random = np.random.default_rng(seed)
     points = max(1, round(rays / len(areas)))
     power = areas * passed / areas.sum()
-    for k in range(points):  # strata of the distance from a corner; steps by the golden ratio across, from a random begin
+    # strata of the distance from a corner; steps by the golden ratio across, from a random begin
+    for k in range(points):
         if k == 0:
             begin = random.random(len(areas))
         root, v = np.sqrt((k + random.random(len(areas))) / points), (begin + 0.6180339887 * k) % 1
-        at = (1 - root)[:, None] * corners[:, 0] + (root * (1 - v))[:, None] * corners[:, 1] + (root * v)[:, None] * corners[:, 2]
+        at = ((1 - root)[:, None] * corners[:, 0] + (root * (1 - v))[:, None] * corners[:, 1]
+              + (root * v)[:, None] * corners[:, 2])
         hit = at[:, :2] + slopes * (distance + at[:, 2])[:, None]
         x = np.floor((hit[:, 0] / receiver[0] + 0.5) * cells).astype(int)
         y = np.floor((0.5 - hit[:, 1] / receiver[1]) * cells).astype(int)
@@ -82,19 +85,21 @@ def picture_of(file, cells):
 
 
 def rings(a):
-    """How strongly an even grey waves as often as there are facets, and halves of facets. Two traces with other points have the same waves
-    and another noise. So the mean of one's spectrum times the other's is that of the waves, and the spectrum of their difference is the
-    noise. Middle half of the picture, four cells a facet, along rows."""
+    """How strongly an even grey waves as often as there are facets, and halves of facets. Two traces with other points
+    have the same waves and another noise. So the mean of one's spectrum times the other's is that of the waves, and the
+    spectrum of their difference is the noise. Middle half of the picture, four cells a facet, along rows."""
     cells, middle = 4 * a.rings, slice(a.rings, 3 * a.rings)
     window = np.hanning(2 * a.rings)
     one, two = ((light / light.mean() - 1) * window for light in
-                (trace(a.stl, a.index, a.distance, a.receiver, cells, a.rays, seed)[0][middle, middle] for seed in (1, 2)))
+                (trace(a.stl, a.index, a.distance, a.receiver, cells, a.rays, seed)[0][middle, middle]
+                 for seed in (1, 2)))
     first, second = np.fft.rfft(one, axis=1), np.fft.rfft(two, axis=1)
     waves, noise = (first * second.conj()).real.mean(axis=0), (np.abs(first - second) ** 2).mean(axis=0) / 2
     as_amplitude = 2 / window.sum()
     uncertain = np.sqrt(noise[1:].mean() / np.sqrt(len(first))) * as_amplitude
     coarse = 8 + int(np.argmax(waves[8:a.rings // 8 + 1]))  # longer ones are the light's fall towards the rim
-    for name, at in (("strongest of four facets and longer", coarse), ("facets", a.rings // 2), ("half facets", a.rings)):
+    for name, at in (("strongest of four facets and longer", coarse), ("facets", a.rings // 2),
+                     ("half facets", a.rings)):
         often, power = 2 * at, waves[at - 1:at + 2].max()  # `at` is in the middle half
         print(f"{name}: waves of {np.sqrt(max(power, 0)) * as_amplitude:.5f} of the grey, {often} across; "
               f"told from noise above {uncertain:.5f}; one ray's noise {np.sqrt(noise[at]) * as_amplitude:.5f}")

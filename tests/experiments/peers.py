@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Renders the same scenes with Nephroid, Mitsuba 3, LuxCore and POV-Ray, and designs the same lens with another tool: error against processor time.
+"""Renders the same scenes with Nephroid, Mitsuba 3, LuxCore and POV-Ray, and designs the same lens with another tool:
+error against processor time.
 
     tests/experiments/peers.py PROGRAM OUT [SCENE...]     of these scenes, or of all: ball, bunny, sky, room, lens
 
-Mitsuba and LuxCore are installed from PyPI into OUT/venv; POV-Ray is Debian's package povray, ImageMagick and glmark2-data are asked for too.
-Each program has the settings that do best at the scene, of those that we tried; Nephroid has its defaults, and a second time no smoothing.
+Mitsuba and LuxCore are installed from PyPI into OUT/venv; POV-Ray is Debian's package povray, ImageMagick and
+glmark2-data are asked for too. Each program has the settings that do best at the scene, of those that we tried;
+Nephroid has its defaults, and a second time no smoothing.
 
-The reference is a long run of Mitsuba, which has no bias: the mean of two halves, whose difference says how much noise it has. An error is
-the root mean square of the distance to it, less that noise, over the mean there: of the glass' shadow on the floor, or of all floor where a sky or a lamp lights it from many sides. Units differ: each picture is scaled to the reference's mean there. So a
-program that has too much light or too little is told of by "shadow over plain light", where it has both.
+The reference is a long run of Mitsuba, which has no bias: the mean of two halves, whose difference says how much noise
+it has. An error is the root mean square of the distance to it, less that noise, over the mean there: of the glass'
+shadow on the floor, or of all floor where a sky or a lamp lights it from many sides. Units differ: each picture is
+scaled to the reference's mean there. So a program that has too much light or too little is told of by "shadow over
+plain light", where it has both.
 """
 import json
 import os
@@ -21,18 +25,21 @@ from pathlib import Path
 PACKAGES = ["mitsuba==3.9.1", "pyluxcore==2.11.2", "numpy", "matplotlib", "pillow"]
 BUDGETS = [4, 12, 36]  # processor seconds
 LONG = 90              # of each half of the reference
-LUXCORE_PATH = {"renderengine.type": "PATHCPU", "sampler.type": "SOBOL", "path.pathdepth.total": 33, "path.pathdepth.diffuse": 33,
+LUXCORE_PATH = {"renderengine.type": "PATHCPU", "sampler.type": "SOBOL", "path.pathdepth.total": 33,
+                "path.pathdepth.diffuse": 33,
                 "path.pathdepth.glossy": 33, "path.pathdepth.specular": 33}
 LUXCORE = {
-    "bidirectional": {"renderengine.type": "BIDIRCPU", "light.maxdepth": 33, "path.maxdepth": 33, "sampler.type": "RANDOM"},
+    "bidirectional": {"renderengine.type": "BIDIRCPU", "light.maxdepth": 33, "path.maxdepth": 33,
+                      "sampler.type": "RANDOM"},
     "caustic cache": LUXCORE_PATH | {"path.photongi.caustic.enabled": True, "path.photongi.caustic.maxsize": 1_000_000,
-                                     "path.photongi.photon.maxcount": 20_000_000, "path.photongi.caustic.lookup.radius": .03,
+                                     "path.photongi.photon.maxcount": 20_000_000,
+                                     "path.photongi.caustic.lookup.radius": .03,
                                      "path.photongi.caustic.updatespp": 8},
     "path": LUXCORE_PATH,
 }
-# Of each scene: Mitsuba's integrators, the first of which makes the reference; LuxCore's; POV-Ray's photons, or radiosity's rays, and how
-# many photons it gathers. Worse after 12 s, and left out: LuxCore's Metropolis sampler, its paths with light tracing (hybridbackforward),
-# its cache on the bunny, and other numbers that POV-Ray gathers.
+# Of each scene: Mitsuba's integrators, the first of which makes the reference; LuxCore's; POV-Ray's photons, or
+# radiosity's rays, and how many photons it gathers. Worse after 12 s, and left out: LuxCore's Metropolis sampler, its
+# paths with light tracing (hybridbackforward), its cache on the bunny, and other numbers that POV-Ray gathers.
 BEST = {"ball": (["ptracer"], ["bidirectional", "caustic cache"], ([50_000, 200_000, 1_000_000], "gather 40, 400")),
         "bunny": (["ptracer"], ["bidirectional"], ([20_000, 100_000, 500_000], "gather 5, 20")),
         "sky": (["path"], ["path"], ([], "")),
@@ -42,7 +49,8 @@ BEST = {"ball": (["ptracer"], ["bidirectional", "caustic cache"], ([50_000, 200_
 def in_venv(out):
     """Runs this script again with the Python of OUT/venv, where it is not that one yet."""
     venv = out / "venv"
-    # Mitsuba's compiler: version 15, Debian 12's usual one, fails where a processor has AVX-512. The package libllvm19 does not.
+    # Mitsuba's compiler: version 15, Debian 12's usual one, fails where a processor has AVX-512. The package libllvm19
+    # does not.
     libraries = sorted(Path("/usr/lib").glob("*/libLLVM-[0-9][0-9].so"))
     if libraries:
         os.environ.setdefault("DRJIT_LIBLLVM_PATH", str(libraries[-1]))
@@ -67,7 +75,8 @@ def work(order):
         pictures, seconds = renderer.pictures(order["seed"], order["budgets"])
         floor = renderer.floor_only()
     else:
-        pictures, seconds = peers_programs.luxcore(scene, folder, order["budgets"], order["seed"], LUXCORE[order["method"]])
+        pictures, seconds = peers_programs.luxcore(scene, folder, order["budgets"], order["seed"],
+                                                   LUXCORE[order["method"]])
     np.savez(folder / "made.npz", pictures=pictures, seconds=seconds, floor=floor)
     os._exit(0)  # LuxCore's wheel dies at an orderly end
 
@@ -76,7 +85,8 @@ def apart(**order):
     import numpy as np
     order["folder"] = str(order["folder"])
     no_opencl = os.environ | {"OCL_ICD_VENDORS": "none"}  # LuxCore's wheel dies where it finds PoCL
-    done = subprocess.run([sys.executable, __file__, "--work", json.dumps(order)], capture_output=True, text=True, env=no_opencl)
+    done = subprocess.run([sys.executable, __file__, "--work", json.dumps(order)], capture_output=True, text=True,
+                          env=no_opencl)
     if done.returncode:
         sys.exit(f"{order['renderer']} failed: {done.stderr[-1500:]}")
     made = np.load(Path(order["folder"]) / "made.npz")
@@ -124,18 +134,24 @@ def measure(program, out, name):
 
     found = [("Nephroid", ours, our_seconds)]
     if "body" in scene:
-        found.append(("Nephroid, unsmoothed", *nephroid(scene, folder, BUDGETS, program, ["--set", "spectral.smoothing=off"])[:2]))
+        found.append(("Nephroid, unsmoothed", *nephroid(scene, folder, BUDGETS, program,
+                                                        ["--set", "spectral.smoothing=off"])[:2]))
     for method in integrators:
-        found.append((f"Mitsuba, {method}", *apart(renderer="mitsuba", method=method, seed=1, budgets=BUDGETS, **share)[:2]))
+        found.append((f"Mitsuba, {method}", *apart(renderer="mitsuba", method=method, seed=1, budgets=BUDGETS,
+                                                   **share)[:2]))
     for method in engines:
-        found.append((f"LuxCore, {method}", *apart(renderer="luxcore", method=method, seed=1, budgets=BUDGETS, **share)[:2]))
+        found.append((f"LuxCore, {method}", *apart(renderer="luxcore", method=method, seed=1, budgets=BUDGETS,
+                                                   **share)[:2]))
     if povray_works:
-        found.append(("POV-Ray, " + ("photons" if "body" in scene else "radiosity"), *povray(scene, folder, povray_works, gather, read_hdr)))
+        found.append(("POV-Ray, " + ("photons" if "body" in scene else "radiosity"),
+                      *povray(scene, folder, povray_works, gather, read_hdr)))
 
     level = truth[where].mean()
     floor_noise = np.mean(noise[where] ** 2)
-    print(f"\n## {name}: {scene['title']}\n\n{where.sum()} pixels; noise of the reference {np.sqrt(floor_noise) / level:.4f}\n")
-    print("| program | " + "seconds, error | " * len(BUDGETS) + "shadow over plain light |\n| --- | " + "--- | " * len(BUDGETS) + "--- |")
+    print(f"\n## {name}: {scene['title']}\n\n{where.sum()} pixels; noise of the reference "
+          f"{np.sqrt(floor_noise) / level:.4f}\n")
+    print("| program | " + "seconds, error | " * len(BUDGETS) + "shadow over plain light |\n| --- | " + "--- | "
+          * len(BUDGETS) + "--- |")
     for program_name, pictures, seconds in found:
         cells, shadow_over_plain = [], None
         for picture, took in zip(pictures, seconds):
@@ -151,7 +167,8 @@ def measure(program, out, name):
             cells.append(f"{took:.1f} s, {error:.4f}")
             title = program_name.lower().replace(", ", "-").replace(" ", "-")
             write_png(folder / f"{title}-{len(cells)}.png", unit * picture / (4 * level))
-        print(f"| {program_name} | " + " | ".join(cells) + f" | {'-' if shadow_over_plain is None else f'{shadow_over_plain:.4f}'} |", flush=True)
+        print(f"| {program_name} | " + " | ".join(cells)
+              + f" | {'-' if shadow_over_plain is None else f'{shadow_over_plain:.4f}'} |", flush=True)
     write_png(folder / "reference.png", np.repeat(truth[..., None], 3, -1) / (4 * level))
 
 
@@ -161,7 +178,8 @@ if __name__ == "__main__":
         sys.exit()
     names = [*BEST, "lens"]
     if len(sys.argv) < 3 or not Path(sys.argv[1]).is_file() or not set(sys.argv[3:]) <= set(names):
-        sys.exit(f"usage: peers.py PROGRAM OUT [SCENE...], PROGRAM being the program, as build/release/bin/nephroid; scenes: {', '.join(names)}")
+        sys.exit(f"usage: peers.py PROGRAM OUT [SCENE...], PROGRAM being the program, as build/release/bin/nephroid; "
+                 f"scenes: {', '.join(names)}")
     nephroid_program, target = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).absolute()
     missing = [program for program in ("povray", "convert") if not shutil.which(program)]
     if missing:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The last scene of peers.py: a lens that casts a photograph, by Nephroid and by poisson_caustic_design, which OUT/poisson_caustic_design
-holds or git fetches. lens.py judges both by their meshes alone."""
+"""The last scene of peers.py: a lens that casts a photograph, by Nephroid and by poisson_caustic_design, which
+OUT/poisson_caustic_design holds or git fetches. lens.py judges both by their meshes alone."""
 import json
 import subprocess
 from pathlib import Path
@@ -20,14 +20,16 @@ RAYS = 1e7
 
 
 def photograph(folder):
-    """512 x 512, grey: Grace Hopper (U.S. Navy, public domain), of matplotlib's samples; sRGB, and linear for who takes bytes for light."""
+    """512 x 512, grey: Grace Hopper (U.S. Navy, public domain), of matplotlib's samples; sRGB, and linear for who takes
+    bytes for light."""
     from matplotlib import cbook
     with cbook.get_sample_data("grace_hopper.jpg") as file:
         photo = Image.open(file).convert("L").crop((0, 0, 512, 512))
     photo.save(folder / "photo.png")
     grey = np.asarray(photo) / 255
     linear = np.where(grey > .04045, ((grey + .055) / 1.055) ** 2.4, grey / 12.92)
-    Image.fromarray(np.round(255 * linear).astype(np.uint8)).convert("RGB").save(folder / "linear.png")  # of grey it reads every fourth byte
+    # of grey it reads every fourth byte
+    Image.fromarray(np.round(255 * linear).astype(np.uint8)).convert("RGB").save(folder / "linear.png")
     return folder / "photo.png"
 
 
@@ -45,7 +47,8 @@ def built_tool(out):
 
 
 def write_stl(obj, stl):
-    """In millimetres, about the middle, the relief down: the flat side is the one whose corners have the same height."""
+    """In millimetres, about the middle, the relief down: the flat side is the one whose corners have the same
+    height."""
     vertices, faces = [], []
     for line in open(obj):
         words = line.split()
@@ -59,7 +62,8 @@ def write_stl(obj, stl):
     if not top_is_flat:
         v = v * [1, -1, -1]
     corners = v[np.array(faces)]
-    inside_out = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) < 0  # its volume is negative
+    # its volume is negative
+    inside_out = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) < 0
     rows = np.zeros(len(faces), [("f", "<f4", (4, 3)), ("attribute", "<u2")])
     rows["f"][:, 1:] = corners[:, ::-1] if inside_out else corners
     stl.write_bytes(bytes(80) + np.uint32(len(rows)).tobytes() + rows.tobytes())
@@ -77,7 +81,8 @@ def measure_lens(program, out):
     folder = out / "lens"
     folder.mkdir(parents=True, exist_ok=True)
     photo = photograph(folder)
-    print(f"\n## lens: a photograph, n = {INDEX}\n\n| program | seconds | " + " | ".join(f"error, {c} x {c} cells" for c in CELLS)
+    print(f"\n## lens: a photograph, n = {INDEX}\n\n| program | seconds | "
+          + " | ".join(f"error, {c} x {c} cells" for c in CELLS)
           + " |\n| --- | --- | --- | --- |")
 
     def row(name, seconds, stl):
@@ -85,18 +90,23 @@ def measure_lens(program, out):
 
     for facets in (128, 256, 512):
         preset = {"engine": "inverse", "unit": "mm", "scene": {"camera": {"resolution": [256, 512]}}, "inverse": {
-            "method": "lens", "size_mm": [WIDTH, WIDTH], "facets": [facets, facets], "cells": [CELLS[-1], CELLS[-1]], "index": INDEX,
+            "method": "lens", "size_mm": [WIDTH, WIDTH], "facets": [facets, facets], "cells": [CELLS[-1], CELLS[-1]],
+            "index": INDEX,
             "receivers": [{"distance_mm": DISTANCE, "picture": {"type": "file", "file": str(photo)}}]}}
         (folder / "lens.json").write_text(json.dumps(preset))
         made = folder / f"nephroid-{facets}"
-        row(f"Nephroid, {facets} x {facets} facets", run_measured([program, "run", "lens.json", "-o", made], folder), made / "object.stl")
+        row(f"Nephroid, {facets} x {facets} facets", run_measured([program, "run", "lens.json", "-o", made], folder),
+            made / "object.stl")
     tool = built_tool(out)
     if not tool:
-        return print(f"poisson_caustic_design is left out: {TOOL} cannot be fetched, and {out / 'poisson_caustic_design'} is not there")
+        return print(f"poisson_caustic_design is left out: {TOOL} cannot be fetched, and "
+                     f"{out / 'poisson_caustic_design'} is not there")
     for nodes in (64, 128):
         made = folder / f"poisson-{nodes}"
         made.mkdir(exist_ok=True)
-        seconds = run_measured([tool, f"--input_png={folder / 'linear.png'}", f"--output={made}/", f"--res_w={nodes}", f"--mesh_width={WIDTH / 1000}",
-                                f"--focal_l={DISTANCE / 1000}", "--thickness=0.01", "--conv_tres=0.01", "--threads=2"], made)
+        seconds = run_measured([tool, f"--input_png={folder / 'linear.png'}", f"--output={made}/", f"--res_w={nodes}",
+                                f"--mesh_width={WIDTH / 1000}",
+                                f"--focal_l={DISTANCE / 1000}", "--thickness=0.01", "--conv_tres=0.01", "--threads=2"],
+                               made)
         write_stl(next(made.glob("*.obj")), made / "object.stl")
         row(f"poisson_caustic_design, {nodes} nodes", seconds, made / "object.stl")

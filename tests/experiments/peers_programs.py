@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How peers.py renders a scene with each program: a function each, that gives pictures of linear light (height x width x 3, in a unit of
-the program's own) and the processor seconds that each took, user and system of all threads. What Mitsuba and LuxCore take to start and to
-compile is not counted; what Nephroid and POV-Ray take to start is."""
+"""How peers.py renders a scene with each program: a function each, that gives pictures of linear light (height x width
+x 3, in a unit of the program's own) and the processor seconds that each took, user and system of all threads. What
+Mitsuba and LuxCore take to start and to compile is not counted; what Nephroid and POV-Ray take to start is."""
 import json
 import resource
 import subprocess
@@ -27,8 +27,10 @@ def run_measured(command, folder):
 # --- Nephroid
 
 
-# Normals of walls: how a quad, which lies flat with its front up, is turned to each, and which way its edges x and z then go.
-TURNS = {(0, 1, 0): ([0, 0, 0], 0, 2), (0, -1, 0): ([180, 0, 0], 0, 2), (0, 0, 1): ([90, 0, 0], 0, 1), (1, 0, 0): ([0, 0, -90], 1, 2),
+# Normals of walls: how a quad, which lies flat with its front up, is turned to each, and which way its edges x and z
+# then go.
+TURNS = {(0, 1, 0): ([0, 0, 0], 0, 2), (0, -1, 0): ([180, 0, 0], 0, 2), (0, 0, 1): ([90, 0, 0], 0, 1),
+         (1, 0, 0): ([0, 0, -90], 1, 2),
          (-1, 0, 0): ([0, 0, 90], 1, 2)}
 
 
@@ -42,17 +44,20 @@ def quad(index, middle, u, v):
 def preset_of(scene):
     light, about = dict(scene["light"]), {"spectrum": "D65"}
     made = {"camera": scene["camera"] | {"resolution": [SIDE, SIDE]},
-            "materials": {"matt": {"type": "diffuse", "reflectance": {"type": "constant", "value": reflectance(scene)}}},
+            "materials": {"matt": {"type": "diffuse", "reflectance": {"type": "constant",
+                                                                      "value": reflectance(scene)}}},
             "objects": [quad(i, *wall) for i, wall in enumerate(walls(scene))], "lights": []}
     if "body" in scene:
         made["materials"]["glass"] = {"type": "dielectric", "dispersion": {"type": "constant", "n": scene["index"]}}
         made["objects"].append(
-            {"name": "glass", "material": "glass", "mesh": BUNNY, "normals": "faceted", "transform": MOVED} if scene["body"] == "bunny" else
+            {"name": "glass", "material": "glass", "mesh": BUNNY, "normals": "faceted", "transform": MOVED}
+            if scene["body"] == "bunny" else
             {"name": "glass", "material": "glass", "shape": {"type": "sphere", "radius": 1}, "normals": "smooth"})
     if light["type"] == "sky":
         made["environment"] = {"type": "constant", "colour": [1, 1, 1], "lights": True}
     elif light["type"] == "area":
-        made["lights"] = [about | {"type": "area", "position": light["position"], "direction": [0, -1, 0], "size": [light["size"]] * 2}]
+        made["lights"] = [about | {"type": "area", "position": light["position"], "direction": [0, -1, 0],
+                                   "size": [light["size"]] * 2}]
     else:
         made["lights"] = [about | light]
     return {"engine": "spectral", "unit": "m", "white": 1, "scene": made, "spectral": {"indirect": "box" in scene}}
@@ -64,7 +69,8 @@ def nephroid(scene, folder, budgets, program, settings=()):
     pictures, seconds, direct = [], [], None
     for budget in budgets:
         out = folder / f"nephroid-{budget}"
-        seconds.append(run_measured([program, "run", "scene.json", "-o", out, "--seconds", budget / 2, *settings], folder))
+        seconds.append(run_measured([program, "run", "scene.json", "-o", out, "--seconds", budget / 2, *settings],
+                                    folder))
         names = ["direct", "indirect"] if "box" in scene else ["direct", "caustic"]
         layers = [read_layer(out / "image.exr", name) for name in names]
         direct = layers[0]
@@ -86,7 +92,8 @@ class Mitsuba:
         camera = scene["camera"]
         parts = {
             "type": "scene", "integrator": {"type": method, "max_depth": DEEP, "rr_depth": DEEP, "hide_emitters": True},
-            "sensor": {"type": "perspective", "fov": camera["fov_deg"], "to_world": T().look_at(camera["position"], camera["target"], [0, 1, 0]),
+            "sensor": {"type": "perspective", "fov": camera["fov_deg"],
+                       "to_world": T().look_at(camera["position"], camera["target"], [0, 1, 0]),
                        "film": {"type": "hdrfilm", "width": SIDE, "height": SIDE, "rfilter": {"type": "box"}}},
             "light": self.light(scene, method)}
         if "body" in scene:
@@ -101,7 +108,8 @@ class Mitsuba:
             matrix = np.eye(4)
             matrix[:3] = np.stack([u, v, n, middle], -1)
             parts[f"wall{i}"] = {"type": "rectangle", "to_world": T(matrix),
-                                 "bsdf": {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": reflectance(scene)}}}
+                                 "bsdf": {"type": "twosided",
+                                          "bsdf": {"type": "diffuse", "reflectance": reflectance(scene)}}}
         self.floor_height = walls(scene)[0][0][1]
         self.scene = mitsuba.load_dict(parts)
 
@@ -110,7 +118,8 @@ class Mitsuba:
         if light["type"] == "sky":
             return {"type": "constant", "radiance": 1.0}
         if light["type"] == "area":
-            return {"type": "rectangle", "to_world": T().translate(light["position"]).rotate([1, 0, 0], 90).scale(light["size"] / 2),
+            return {"type": "rectangle",
+                    "to_world": T().translate(light["position"]).rotate([1, 0, 0], 90).scale(light["size"] / 2),
                     "emitter": {"type": "area", "radiance": 1.0}}
         if light["type"] == "directional":
             if method == "ptracer":
@@ -131,7 +140,8 @@ class Mitsuba:
         return abs(at[..., 1] - self.floor_height) < 1e-4
 
     def pictures(self, seed, budgets, spp=32):
-        draw = lambda at: np.array(self.mi.render(self.scene, spp=spp, seed=1_000_000 * seed + at))[..., :3].astype(float)
+        draw = lambda at: np.array(self.mi.render(self.scene, spp=spp,
+                                                  seed=1_000_000 * seed + at))[..., :3].astype(float)
         draw(0)  # compiles
         begin, total, count, found, seconds = time.process_time(), 0, 0, [], []
         for budget in budgets:
@@ -186,19 +196,25 @@ def luxcore(scene, folder, budgets, seed, settings):
         put({"scene.lights.l.type": "constantinfinite", "scene.lights.l.color": [1.0] * 3})
     elif light["type"] == "area":
         write_ply(folder / "lamp.ply", *rectangle(light["position"], [light["size"], 0, 0], [0, 0, light["size"]]))
-        put({"scene.materials.lamp.type": "matte", "scene.materials.lamp.kd": [0.0] * 3, "scene.materials.lamp.emission": [1.0] * 3,
+        put({"scene.materials.lamp.type": "matte", "scene.materials.lamp.kd": [0.0] * 3,
+             "scene.materials.lamp.emission": [1.0] * 3,
              "scene.objects.lamp.ply": str(folder / "lamp.ply"), "scene.objects.lamp.material": "lamp"})
     elif light["type"] == "directional":
-        put({"scene.lights.l.type": "laser", "scene.lights.l.position": [0.0, 1.5, 0.0], "scene.lights.l.target": [0.0, 0.0, 0.0],
+        put({"scene.lights.l.type": "laser", "scene.lights.l.position": [0.0, 1.5, 0.0],
+             "scene.lights.l.target": [0.0, 0.0, 0.0],
              "scene.lights.l.radius": 1.01, "scene.lights.l.color": [1.0] * 3})
     else:
         middle, angle = cone_about_bunny(light["position"])
-        put({"scene.lights.l.type": "spot", "scene.lights.l.position": words(light["position"]), "scene.lights.l.target": words(middle),
-             "scene.lights.l.coneangle": angle, "scene.lights.l.conedeltaangle": .001, "scene.lights.l.color": [1.0] * 3})
+        put({"scene.lights.l.type": "spot", "scene.lights.l.position": words(light["position"]),
+             "scene.lights.l.target": words(middle),
+             "scene.lights.l.coneangle": angle, "scene.lights.l.conedeltaangle": .001,
+             "scene.lights.l.color": [1.0] * 3})
     made = pyluxcore.Scene()
     made.Parse(props)
-    config = {"film.width": SIDE, "film.height": SIDE, "film.filter.type": "NONE", "film.imagepipelines.0.0.type": "NOP",
-              "film.outputs.0.type": "RGB", "film.outputs.0.filename": "rgb.exr", "native.threads.count": 2, "renderengine.seed": seed}
+    config = {"film.width": SIDE, "film.height": SIDE, "film.filter.type": "NONE",
+              "film.imagepipelines.0.0.type": "NOP",
+              "film.outputs.0.type": "RGB", "film.outputs.0.filename": "rgb.exr", "native.threads.count": 2,
+              "renderengine.seed": seed}
     all_settings = pyluxcore.Properties()
     for name, value in (config | settings).items():
         all_settings.Set(pyluxcore.Property(name, value))
@@ -224,7 +240,8 @@ def povray(scene, folder, works, gather, read_picture):
     """works: photons, or of a room the rays of a radiosity sample."""
     v = lambda p: "<" + ",".join(f"{x:.7g}" for x in p) + ">"
     camera, light = scene["camera"], scene["light"]
-    text = (f"camera {{ perspective location {v(camera['position'])} right <-1,0,0> up <0,1,0> angle {camera['fov_deg']} "
+    text = (f"camera {{ perspective location {v(camera['position'])} right <-1,0,0> up <0,1,0> angle "
+            f"{camera['fov_deg']} "
             f"look_at {v(camera['target'])} }}\n")
     matt = f"texture {{ pigment {{ rgb 1 }} finish {{ ambient 0 diffuse {reflectance(scene)} }} }}"
     for middle, a, b in walls(scene):
@@ -234,13 +251,16 @@ def povray(scene, folder, works, gather, read_picture):
     if light["type"] == "area":
         corners, triangles = rectangle(light["position"], [light["size"], 0, 0], [0, 0, light["size"]])
         for t in triangles:
-            text += f"triangle {{ {', '.join(v(corners[i]) for i in t)} texture {{ finish {{ ambient 0 diffuse 0 emission 1 }} pigment {{ rgb 1 }} }} }}\n"
+            text += (f"triangle {{ {', '.join(v(corners[i]) for i in t)} "
+                     "texture { finish { ambient 0 diffuse 0 emission 1 } pigment { rgb 1 } } }\n")
     elif light["type"] == "directional":
         text += "light_source { <0,50,0> rgb 1 parallel point_at <0,0,0> photons { refraction on reflection on } }\n"
     else:
-        text += f"light_source {{ {v(light['position'])} rgb 100 fade_distance .1 fade_power 2 photons {{ refraction on reflection on }} }}\n"
+        text += (f"light_source {{ {v(light['position'])} rgb 100 fade_distance .1 fade_power 2 "
+                 "photons { refraction on reflection on } }\n")
     if "body" in scene:
-        glass = ("material { texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 reflection { 0 1 fresnel on } conserve_energy } } "
+        glass = ("material { texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 reflection { 0 1 fresnel on } "
+                 "conserve_energy } } "
                  f"interior {{ ior {scene['index']} }} }} photons {{ target reflection on refraction on }}")
         if scene["body"] == "ball":
             text += f"sphere {{ 0, 1 {glass} }}\n"
@@ -250,10 +270,13 @@ def povray(scene, folder, works, gather, read_picture):
             text += f"inside_vector <0,1,0> {glass} }}\n"
     pictures, seconds = [], []
     for work in works:
-        how = f"photons {{ count {work} autostop 0 {gather} max_trace_level {DEEP} }}" if "body" in scene else \
-            f"radiosity {{ count {work} error_bound .5 recursion_limit 6 pretrace_end .01 nearest_count 10 low_error_factor .5 brightness 1 }}"
-        (folder / "scene.pov").write_text(f"#version 3.7;\nglobal_settings {{ assumed_gamma 1 max_trace_level {DEEP} adc_bailout 0 {how} }}\n{text}")
-        command = ["povray", "+Iscene.pov", "+Oscene.hdr", "+FH", f"+W{SIDE}", f"+H{SIDE}", "-D", "+WT2", "+A0.0", "+AM1", "+R2"]
+        how = f"photons {{ count {work} autostop 0 {gather} max_trace_level {DEEP} }}" if "body" in scene else (
+            f"radiosity {{ count {work} error_bound .5 recursion_limit 6 pretrace_end .01 nearest_count 10 "
+            "low_error_factor .5 brightness 1 }")
+        (folder / "scene.pov").write_text(f"#version 3.7;\nglobal_settings "
+                                          f"{{ assumed_gamma 1 max_trace_level {DEEP} adc_bailout 0 {how} }}\n{text}")
+        command = ["povray", "+Iscene.pov", "+Oscene.hdr", "+FH", f"+W{SIDE}", f"+H{SIDE}", "-D", "+WT2", "+A0.0",
+                   "+AM1", "+R2"]
         seconds.append(run_measured(command, folder))
         pictures.append(read_picture(folder / "scene.hdr"))
     return pictures, seconds

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The scenes of peers.py, and meshes for programs that have no ball or rectangle. y is up. Glass has one index, so no program gains by
-wavelengths. Where light comes through glass the floor reflects 5 %, so that light that meets it twice does not count."""
+"""The scenes of peers.py, and meshes for programs that have no ball or rectangle. y is up. Glass has one index, so no
+program gains by wavelengths. Where light comes through glass the floor reflects 5 %, so that light that meets it twice
+does not count."""
 import numpy as np
 
 SIDE = 256  # pixels
 BUNNY = "/usr/share/glmark2/models/bunny.obj"  # of Debian's glmark2-data
 MOVED = {"scale": [2, 2, 2], "rotate_deg": [0, 20, 0], "translate": [-.6, 1.983, -.8]}
 
-# body: a ball of radius 1 in the origin, or the bunny, moved. floor: edge, height, reflectance. box: edge and height of a room without its
-# front. aimed: what a program that lets its user aim light is given.
+# body: a ball of radius 1 in the origin, or the bunny, moved. floor: edge, height, reflectance. box: edge and height of
+# a room without its front. aimed: what a program that lets its user aim light is given.
 SCENES = {
     "ball": {
         "title": "a glass ball in sunlight", "body": "ball", "index": 1.5168, "floor": [8, -2, .05],
@@ -50,7 +51,8 @@ def bunny():
 
 def ball(around=512):
     """Vertices, which are normals too, and triangles."""
-    polar, turn = np.meshgrid(np.linspace(0, np.pi, around // 2 + 1), np.linspace(0, 2 * np.pi, around + 1), indexing="ij")
+    polar, turn = np.meshgrid(np.linspace(0, np.pi, around // 2 + 1), np.linspace(0, 2 * np.pi, around + 1),
+                              indexing="ij")
     vertices = np.stack([np.sin(polar) * np.cos(turn), np.cos(polar), np.sin(polar) * np.sin(turn)], -1).reshape(-1, 3)
     i, j = np.meshgrid(np.arange(around // 2), np.arange(around), indexing="ij")
     a = (i * (around + 1) + j).ravel()
@@ -72,7 +74,8 @@ def walls(scene):
         size, height, _ = scene["floor"]
         return [([0, height, 0], [0, 0, size], [size, 0, 0])]
     w, h = scene["box"]
-    return [([0, 0, 0], [0, 0, w], [w, 0, 0]), ([0, h, 0], [w, 0, 0], [0, 0, w]), ([0, h / 2, -w / 2], [w, 0, 0], [0, h, 0]),
+    return [([0, 0, 0], [0, 0, w], [w, 0, 0]), ([0, h, 0], [w, 0, 0], [0, 0, w]),
+            ([0, h / 2, -w / 2], [w, 0, 0], [0, h, 0]),
             ([-w / 2, h / 2, 0], [0, 0, -w], [0, h, 0]), ([w / 2, h / 2, 0], [0, 0, w], [0, h, 0])]
 
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Cuts maps into lights and prints how far the lights' irradiance is from the map's, over all normals, in percent, as tables of docs/notebook/environment.md.
+"""Cuts maps into lights and prints how far the lights' irradiance is from the map's, over all normals, in percent, as
+tables of docs/notebook/environment.md.
 
     tests/experiments/segment.py PROGRAM MAP... [--q N...]
 
-docs/notebook/environment.md has the eight maps of Debian's package blender-data (usr/share/blender/datafiles/studiolights/world/*.exr).
+docs/notebook/environment.md has the eight maps of Debian's package blender-data
+(usr/share/blender/datafiles/studiolights/world/*.exr).
 """
 import argparse
 import json
@@ -13,11 +15,13 @@ import sys
 from pathlib import Path
 from statistics import median
 
-WAYS = {"variance": [], "thesis": ["--method", "thesis"], "thesis, texel weights": ["--method", "thesis", "--weights", "texel"]}
+WAYS = {"variance": [], "thesis": ["--method", "thesis"],
+        "thesis, texel weights": ["--method", "thesis", "--weights", "texel"]}
 
 
 def error_percent(program, picture, lights, options):
-    done = subprocess.run([program, "segment", picture, "-q", str(lights), *options, "--json"], capture_output=True, text=True)
+    done = subprocess.run([program, "segment", picture, "-q", str(lights), *options, "--json"], capture_output=True,
+                          text=True)
     if done.returncode:
         sys.exit(done.stderr.splitlines()[-1])
     return 100 * json.loads(done.stdout)["irradiance_error"]
@@ -33,9 +37,11 @@ def main():
     print("|---|---|" + "---|" * (len(chosen.maps) + 1))
     wins = 0
     for lights in chosen.q:
-        of = {way: [error_percent(chosen.program, m, lights, options) for m in chosen.maps] for way, options in WAYS.items()}
+        of = {way: [error_percent(chosen.program, m, lights, options) for m in chosen.maps] for way,
+              options in WAYS.items()}
         for way, errors in of.items():
-            print(f"| {lights} | {way} | " + " | ".join(f"{e:.3g}" for e in errors) + f" | {median(errors):.3g} |", flush=True)
+            print(f"| {lights} | {way} | " + " | ".join(f"{e:.3g}" for e in errors) + f" | {median(errors):.3g} |",
+                  flush=True)
         wins += sum(a < b for a, b in zip(of["variance"], of["thesis"]))
     print(f"\nvariance is better than thesis {wins} times of {len(chosen.q) * len(chosen.maps)}")
 

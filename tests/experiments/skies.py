@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the environments of the presets in presets/spectral: latitude-longitude pictures in Radiance's format (RGBE, run lengths).
+"""Writes the environments of the presets in presets/spectral: latitude-longitude pictures in Radiance's format (RGBE,
+run lengths).
 
     tests/experiments/skies.py presets/spectral
 """
@@ -33,7 +34,8 @@ def run_lengths(plane):
             i += run
             continue
         start = i
-        while i < len(plane) and i - start < 128 and not (i + 2 < len(plane) and plane[i] == plane[i + 1] == plane[i + 2]):
+        while i < len(plane) and i - start < 128 and not (i + 2 < len(plane)
+                                                          and plane[i] == plane[i + 1] == plane[i + 2]):
             i += 1
         out += bytes([i - start]) + plane[start:i]
     return bytes(out)
@@ -44,7 +46,8 @@ def write(file, colour_at):
     with open(file, "wb") as out:
         out.write(f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {HEIGHT} +X {WIDTH}\n".encode())
         for row in range(HEIGHT):
-            texels = [rgbe(colour_at((column + 0.5) / WIDTH * 360 - 180, 90 - (row + 0.5) / HEIGHT * 180)) for column in range(WIDTH)]
+            texels = [rgbe(colour_at((column + 0.5) / WIDTH * 360 - 180, 90 - (row + 0.5) / HEIGHT * 180))
+                      for column in range(WIDTH)]
             out.write(bytes([2, 2, WIDTH >> 8, WIDTH & 255]))
             for part in range(4):
                 out.write(run_lengths(bytes(t[part] for t in texels)))

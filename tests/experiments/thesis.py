@@ -4,7 +4,8 @@
 
     tests/experiments/thesis.py PROGRAM OUT [EXPERIMENT...]
 
-Every run of a table is made in one go, one after the other; references are made once and kept (docs/error-against-time.md).
+Every run of a table is made in one go, one after the other; references are made once and kept
+(docs/error-against-time.md).
 """
 import csv
 import json
@@ -33,12 +34,14 @@ class Experiments:
     def run(self, name, preset, spectral, passes=None, seconds=None, seed=1, reference=None, extra=()):
         """One run; returns its run.json, its history and its folder."""
         folder = self.out / name
-        sets = ["sweep=null", "spectral.direct=false", f"stop.passes={passes or 'null'}", f"stop.seconds={seconds or 'null'}", *extra]
+        sets = ["sweep=null", "spectral.direct=false", f"stop.passes={passes or 'null'}",
+                f"stop.seconds={seconds or 'null'}", *extra]
         if self.size:
             sets.append(f"scene.camera.resolution=[{self.size},{self.size}]")
         sets += [f"spectral.{key}={json.dumps(value)}" for key, value in spectral.items()]
         if reference:
-            sets.append("reference=" + json.dumps({"type": "recipe", "passes": reference, "spectral": PLAIN | {"direct": False}}))
+            sets.append("reference=" + json.dumps({"type": "recipe", "passes": reference,
+                                                   "spectral": PLAIN | {"direct": False}}))
             sets.append("measure.perceptual=true")
         command = [self.program, "run", preset, "--seed", str(seed), "-o", str(folder)]
         for item in sets:
@@ -50,19 +53,21 @@ class Experiments:
         return json.load(open(folder / "run.json")), rows, folder
 
     def compare(self, a, b):
-        result = subprocess.run([self.program, "compare", "--json", str(a / "image.exr"), str(b / "image.exr")], check=True,
+        result = subprocess.run([self.program, "compare", "--json", str(a / "image.exr"), str(b / "image.exr")],
+                                check=True,
                                 capture_output=True, text=True)
         return json.loads(result.stdout)
 
     def iterations(self, preset, passes, *options):
-        result = subprocess.run([self.program, "importance", preset, "--set", f"stop.passes={passes}", "--set", "sweep=null", *options,
+        result = subprocess.run([self.program, "importance", preset, "--set", f"stop.passes={passes}", "--set",
+                                 "sweep=null", *options,
                                  "--json"], check=True, capture_output=True, text=True)
         return sum(max(i["iterations"], 1) for i in json.loads(result.stdout)["iterations"])
 
 
 def reaches(rows, error, metric):
-    """Seconds until the error of a history is first at most `error`, straight lines between logarithms; None where it never is. Where its first
-    row is below already, that row's seconds: too many."""
+    """Seconds until the error of a history is first at most `error`, straight lines between logarithms; None where it
+    never is. Where its first row is below already, that row's seconds: too many."""
     from math import exp, log
     before = None
     for row in rows:
@@ -77,7 +82,8 @@ def reaches(rows, error, metric):
 
 
 def speed(e, scene="bunny", brute_passes=20, seconds=120):
-    """Figures 4.13 and 4.14, rows 1 to 3: brute force, the thesis' clusters with (4.15), with Radziszewski et al., and ours."""
+    """Figures 4.13 and 4.14, rows 1 to 3: brute force, the thesis' clusters with (4.15), with Radziszewski et al., and
+    ours."""
     e.size = SPEED_SIZE
     preset = f"spectral/thesis/{scene}"
     settings = {"brute force": (BRUTE, brute_passes, None), "thesis, (4.15)": (THESIS, None, seconds),
@@ -89,15 +95,18 @@ def speed(e, scene="bunny", brute_passes=20, seconds=120):
     slow = float(slowest["seconds"])
     floor = runs["ours"][0]["reference"]["noise_floor"]["lab_mean"]
     metrics = ("lab_mean", "lab_rms", "rel_l2", "iw_ssim")
-    print(f"\n{scene}: brute force, {brute_passes} iterations a wavelength, {slow:.0f} s; noise floor of lab_mean {floor:.2f}\n")
-    print("| method | seconds | passes | lab_mean | lab_rms | rel_l2 | IW-SSIM | seconds to brute force's lab_mean, lab_rms, rel_l2, IW-SSIM | "
+    print(f"\n{scene}: brute force, {brute_passes} iterations a wavelength, {slow:.0f} s; noise floor of lab_mean "
+          f"{floor:.2f}\n")
+    print("| method | seconds | passes | lab_mean | lab_rms | rel_l2 | IW-SSIM | seconds to brute force's lab_mean, "
+          "lab_rms, rel_l2, IW-SSIM | "
           "times faster |\n|---|---|---|---|---|---|---|---|---|")
     for name, (run, rows, _) in runs.items():
         last = {metric: float(rows[-1][metric]) for metric in metrics}
         for row in [*rows, slowest]:
             row["error iw_ssim"] = 1 - float(row["iw_ssim"])  # falls as the others do
         when = [reaches(rows, float(slowest[m]), m) for m in (*metrics[:3], "error iw_ssim")]
-        print(f"| {name} | {float(rows[-1]['seconds']):.1f} | {run['passes']} | {last['lab_mean']:.2f} | {last['lab_rms']:.2f} | {last['rel_l2']:.3f} | "
+        print(f"| {name} | {float(rows[-1]['seconds']):.1f} | {run['passes']} | {last['lab_mean']:.2f} | "
+              f"{last['lab_rms']:.2f} | {last['rel_l2']:.3f} | "
               f"{last['iw_ssim']:.4f} | {', '.join(f'{w:.2f}' if w else 'never' for w in when)} | "
               f"{', '.join(f'{slow / w:.1f}' if w else '-' for w in when)} |")
 
@@ -106,9 +115,10 @@ SEEDS = (1, 2, 3)  # of every picture of a difference
 
 
 def without_noise(e, a, b, metric):
-    """How far two variants are apart without their noise: root of the mean square, and of one standard error less and more. a and b are pictures
-    by seed. The noise of a1 - b1 knows nothing of that of a2 - b2, so the mean of their product is the distance squared; the four squared
-    distances between pictures of different seeds give it, once for each pair of seeds. Below 0 is as good as none."""
+    """How far two variants are apart without their noise: root of the mean square, and of one standard error less and
+    more. a and b are pictures by seed. The noise of a1 - b1 knows nothing of that of a2 - b2, so the mean of their
+    product is the distance squared; the four squared distances between pictures of different seeds give it, once for
+    each pair of seeds. Below 0 is as good as none."""
     def squared(x, y):
         return e.compare(x, y)[metric] ** 2
     products = [(squared(a[i], b[j]) + squared(b[i], a[j]) - squared(a[i], a[j]) - squared(b[i], b[j])) / 2
@@ -118,20 +128,23 @@ def without_noise(e, a, b, metric):
 
 
 def differences(e, title, preset, variants, passes):
-    """Neighbouring variants against each other, the noise, which is the same variant with another seed, and what is left without it."""
+    """Neighbouring variants against each other, the noise, which is the same variant with another seed, and what is
+    left without it."""
     def pictures(index, name, spectral):
         count = passes[name] if isinstance(passes, dict) else passes
         return [e.run(f"{title}/{index}-seed-{seed}", preset, spectral, count, seed=seed)[2] for seed in SEEDS]
     e.size = SPEED_SIZE
     runs = {name: pictures(index, name, spectral) for index, (name, spectral) in enumerate(variants.items())}
-    print(f"\n{title}\n\n| pair | lab_mean | IW-SSIM | lab_rms | noise: lab_rms of two seeds, first, second | lab_rms without noise |\n"
+    print(f"\n{title}\n\n| pair | lab_mean | IW-SSIM | lab_rms | noise: lab_rms of two seeds, first, second | lab_rms "
+          f"without noise |\n"
           "|---|---|---|---|---|---|")
     names = list(runs)
     for a, b in zip(names, names[1:]):
         m = e.compare(runs[a][0], runs[b][0])
         noise = [e.compare(*runs[n][:2])["lab_rms"] for n in (a, b)]
         left, least, most = without_noise(e, runs[a], runs[b], "lab_rms")
-        print(f"| {a} to {b} | {m['lab_mean']:.2f} | {m['iw_ssim']:.4f} | {m['lab_rms']:.2f} | {noise[0]:.2f}, {noise[1]:.2f} | "
+        print(f"| {a} to {b} | {m['lab_mean']:.2f} | {m['iw_ssim']:.4f} | {m['lab_rms']:.2f} | {noise[0]:.2f}, "
+              f"{noise[1]:.2f} | "
               f"{left:.2f} ({least:.2f} to {most:.2f}) |", flush=True)
 
 
@@ -141,7 +154,8 @@ SPLAT = {"estimator": "splat", "jitter": False, "low_discrepancy": True, "photon
 def figure_4_6(e):
     for scene, method in (("bunny", "thesis"), ("bunny-arbitrary-2", "thesis"), ("diamond-arbitrary-1", "thesis")):
         differences(e, f"figure-4-6-{scene}", f"spectral/thesis/{scene}",
-                    {f"{t} degrees": SPLAT | {"method": method, "threshold_deg": t} for t in (0.5, 0.1, 0.05, 0.01)}, 128)
+                    {f"{t} degrees": SPLAT | {"method": method, "threshold_deg": t} for t in (0.5, 0.1, 0.05, 0.01)},
+                    128)
 
 
 def figure_4_9(e):
@@ -158,11 +172,13 @@ def figure_4_10(e):
 def figure_4_11(e):
     print("\nfigure-4-11\n\n| ghat | iterations | seconds | lab_mean | noise floor |\n|---|---|---|---|---|")
     for geometry in (True, False):
-        run, rows, _ = e.run(f"figure-4-11/{geometry}", "spectral/thesis/enclosed-bunny", THESIS | {"importance.geometry": geometry}, 200,
+        run, rows, _ = e.run(f"figure-4-11/{geometry}", "spectral/thesis/enclosed-bunny",
+                             THESIS | {"importance.geometry": geometry}, 200,
                              reference=100)
         count = e.iterations("spectral/thesis/enclosed-bunny", 200, "--set", "spectral.method=thesis", "--set",
                              f"spectral.importance.geometry={json.dumps(geometry)}")
-        print(f"| {'with' if geometry else 'without'} | {count} | {run['work_seconds']:.1f} | {float(rows[-1]['lab_mean']):.2f} | "
+        print(f"| {'with' if geometry else 'without'} | {count} | {run['work_seconds']:.1f} | "
+              f"{float(rows[-1]['lab_mean']):.2f} | "
               f"{run['reference']['noise_floor']['lab_mean']:.2f} |")
 
 
@@ -172,48 +188,62 @@ def figure_4_12(e):
 
 
 def figure_1_5(e):
-    print("\nfigure-1-5\n\n| wavelengths | iterations | seconds | lab_mean | rel_l2 | noise floor |\n|---|---|---|---|---|---|")
+    print("\nfigure-1-5\n\n| wavelengths | iterations | seconds | lab_mean | rel_l2 | noise floor "
+          "|\n|---|---|---|---|---|---|")
     for name, spectral, passes in (("all alike", BRUTE, 10), ("one at random", BRUTE | {"effort": "random"}, 4010)):
-        run, rows, _ = e.run(f"figure-1-5/{name.split()[0]}", "spectral/thesis/prism-f10", spectral, passes, reference=100)
-        print(f"| {name} | {4010} | {run['work_seconds']:.1f} | {float(rows[-1]['lab_mean']):.2f} | {float(rows[-1]['rel_l2']):.3f} | "
+        run, rows, _ = e.run(f"figure-1-5/{name.split()[0]}", "spectral/thesis/prism-f10", spectral, passes,
+                             reference=100)
+        print(f"| {name} | {4010} | {run['work_seconds']:.1f} | {float(rows[-1]['lab_mean']):.2f} | "
+              f"{float(rows[-1]['rel_l2']):.3f} | "
               f"{run['reference']['noise_floor']['lab_mean']:.2f} |")
 
 
-BEYOND_SCENES = {"spectral/thesis/bunny": 12, "spectral/prism": 8, "spectral/ball-lens": 8, "spectral/brilliant": 8}  # seconds
+# seconds
+BEYOND_SCENES = {"spectral/thesis/bunny": 12, "spectral/prism": 8, "spectral/ball-lens": 8, "spectral/brilliant": 8}
 
 
 def beyond(e):
     """Each of what goes beyond the thesis, with and without, at equal time."""
-    base = {"estimator": "automatic", "jitter": False, "low_discrepancy": False, "effort": "power", "differentials": False, "smoothing": "off"}
-    steps = {"clusters alone": base, "jitter": base | {"jitter": True}, "low discrepancy": base | {"low_discrepancy": True},
+    base = {"estimator": "automatic", "jitter": False, "low_discrepancy": False, "effort": "power",
+            "differentials": False, "smoothing": "off"}
+    steps = {"clusters alone": base, "jitter": base | {"jitter": True},
+             "low discrepancy": base | {"low_discrepancy": True},
              "variance": base | {"effort": "variance"}, "differentials": base | {"differentials": True},
              "smoothing": base | {"smoothing": "on"},
-             "jitter, low discrepancy, variance": base | PLAIN, "jitter, low discrepancy, variance, smoothing": base | OURS}
+             "jitter, low discrepancy, variance": base | PLAIN,
+             "jitter, low discrepancy, variance, smoothing": base | OURS}
     for preset, seconds in BEYOND_SCENES.items():
-        print(f"\n{preset}, {seconds} s each\n\n| with | photons, million | lab_mean | lab_rms | rel_l2 |\n|---|---|---|---|---|")
+        print(f"\n{preset}, {seconds} s each\n\n| with | photons, million | lab_mean | lab_rms | rel_l2 "
+              f"|\n|---|---|---|---|---|")
         for index, (name, spectral) in enumerate(steps.items()):
-            run, rows, _ = e.run(f"beyond-{Path(preset).name}/{index}", preset, spectral, seconds=seconds, reference=150)
-            print(f"| {name} | {run['photons'] / 1e6:.1f} | " + " | ".join(f"{float(rows[-1][m]):.3f}" for m in ("lab_mean", "lab_rms", "rel_l2")) + " |")
+            run, rows, _ = e.run(f"beyond-{Path(preset).name}/{index}", preset, spectral, seconds=seconds,
+                                 reference=150)
+            print(f"| {name} | {run['photons'] / 1e6:.1f} | "
+                  + " | ".join(f"{float(rows[-1][m]):.3f}" for m in ("lab_mean", "lab_rms", "rel_l2")) + " |")
         floor = run["reference"]["noise_floor"]
         print("| noise floor | | " + " | ".join(f"{floor[m]:.3f}" for m in ("lab_mean", "lab_rms", "rel_l2")) + " |")
 
 
 def smoothing(e):
     """What smoothing does to pictures of few and of many photons, at equal passes."""
-    print("\nsmoothing\n\n| scene | passes | lab_mean | smoothed | rel_l2 | smoothed | lab_mean's noise floor |\n|---|---|---|---|---|---|---|")
+    print("\nsmoothing\n\n| scene | passes | lab_mean | smoothed | rel_l2 | smoothed | lab_mean's noise floor "
+          "|\n|---|---|---|---|---|---|---|")
     for preset in BEYOND_SCENES:
         for passes in (4, 16, 64):
             last = []
             for index, spectral in enumerate((PLAIN, OURS)):
-                run, rows, _ = e.run(f"smoothing-{Path(preset).name}/{passes}-{index}", preset, spectral, passes, reference=150)
+                run, rows, _ = e.run(f"smoothing-{Path(preset).name}/{passes}-{index}", preset, spectral, passes,
+                                     reference=150)
                 last.append(rows[-1])
-            print(f"| {preset} | {passes} | " + " | ".join(f"{float(row[m]):.3f}" for m in ("lab_mean", "rel_l2") for row in last) +
+            print(f"| {preset} | {passes} | " + " | ".join(f"{float(row[m]):.3f}" for m in ("lab_mean", "rel_l2")
+                                                           for row in last) +
                   f" | {run['reference']['noise_floor']['lab_mean']:.3f} |")
 
 
 EXPERIMENTS = {"speed": speed, "speed-bunny-arbitrary-2": partial(speed, scene="bunny-arbitrary-2"),
                "speed-diamond-arbitrary-1": partial(speed, scene="diamond-arbitrary-1"),
-               "figure-4-6": figure_4_6, "figure-4-9": figure_4_9, "figure-4-10": figure_4_10, "figure-4-11": figure_4_11,
+               "figure-4-6": figure_4_6, "figure-4-9": figure_4_9, "figure-4-10": figure_4_10,
+               "figure-4-11": figure_4_11,
                "figure-4-12": figure_4_12, "figure-1-5": figure_1_5, "beyond": beyond,
                "smoothing": smoothing}
 

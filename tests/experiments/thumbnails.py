@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes presets/thumbnails/ again: a small picture of each shipped preset, for the panel Presets.
 
-    tests/experiments/thumbnails.py PROGRAM [NAME...]     of these presets, or of all; one at a time, with the lowest priority
+    tests/experiments/thumbnails.py PROGRAM [NAME...]   of these presets, or of all; one at a time, of lowest priority
 
-Each is rendered small for a few seconds; of the engine environment the bake comes before that, from fewer photons. What takes longer, or
-needs a file that this machine has not, is skipped with the reason. ImageMagick makes the JPEG files.
+Each is rendered small for a few seconds; of the engine environment the bake comes before that, from fewer photons. What
+takes longer, or needs a file that this machine has not, is skipped with the reason. ImageMagick makes the JPEG files.
 """
 import json
 import os
@@ -41,7 +41,8 @@ def render(program, preset, target):
     size = [max(1, round(width * scale)), max(1, round(height * scale))]
     with tempfile.TemporaryDirectory() as folder:
         command = ["nice", "-n", "19", program, "run", preset["name"], "--seconds", str(SECONDS), "-o", folder + "/run",
-                   "--set", f"scene.camera.resolution={size}", "--set", "sweep=null", "--set", "reference=null", "--set", "animation=null",
+                   "--set", f"scene.camera.resolution={size}", "--set", "sweep=null", "--set", "reference=null",
+                   "--set", "animation=null",
                    "--set", "measure.mask=null", "--set", "stop.error=null"]
         if own(file, lambda value: value.get("engine"), "spectral") == "environment":
             command[command.index("--seconds"):command.index("--seconds") + 2] = ["--passes", str(PASSES)]
@@ -59,7 +60,8 @@ def render(program, preset, target):
 
 
 def main(program, names):
-    shipped = json.loads(subprocess.run([program, "presets", "--json"], capture_output=True, text=True, check=True).stdout)
+    shipped = json.loads(subprocess.run([program, "presets", "--json"], capture_output=True, text=True,
+                                        check=True).stdout)
     skipped = 0
     for preset in shipped:
         if names and preset["name"] not in names:

@@ -4,7 +4,8 @@
 
     tests/experiments/tours.py PROGRAM [PICTURE...]     of these names (dispersion-glasses), or all; one at a time
 
-Renders are by `nephroid run`, pictures of the window by --screenshot under Xvfb. ImageMagick puts them side by side as JPEG.
+Renders are by `nephroid run`, pictures of the window by --screenshot under Xvfb. ImageMagick puts them side by side as
+JPEG.
 """
 import os
 import subprocess
@@ -51,14 +52,16 @@ class Studio:
     def window(self, name, preset, layout, *sets, until=1, pinned=()):
         target = self.folder / f"{name}.png"
         options = [word for value in sets for word in ("--set", value)]
-        self.call("xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", self.program, preset, *pinned, *options, "--layout", layout, "--size", "1120x700",
+        self.call("xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", self.program, preset, *pinned, *options, "--layout",
+                  layout, "--size", "1120x700",
                   "--frames", 60, "--until", until, "--screenshot", target)
         return target
 
     def keep(self, name, pictures, columns):
         """Side by side, at most WIDEST wide, as docs/tours/NAME.jpg."""
         target = TOURS / f"{name}.jpg"
-        self.call("montage", *pictures, "-tile", f"{columns}x", "-geometry", "+2+2", "-background", "black", self.folder / "all.png")
+        self.call("montage", *pictures, "-tile", f"{columns}x", "-geometry", "+2+2", "-background", "black",
+                  self.folder / "all.png")
         self.call("convert", self.folder / "all.png", "-resize", f"{WIDEST}x>", "-strip", "-quality", 85, target)
         print(f"{target.relative_to(ROOT)}: {target.stat().st_size} bytes", flush=True)
         if target.stat().st_size > 120_000:
@@ -71,7 +74,8 @@ def dispersion_glasses(s):
 
 
 def dispersion_window(s):
-    return [s.window("newton", "spectral/thesis/newton", "dispersion", "scene.camera.resolution=[256,256]", "stop.passes=8")], 1
+    return [s.window("newton", "spectral/thesis/newton", "dispersion", "scene.camera.resolution=[256,256]",
+                     "stop.passes=8")], 1
 
 
 def dispersion_designed(s):
@@ -116,7 +120,8 @@ def batch_sweep(s):
 
 
 def batch_window(s):
-    return [s.window("glasses-window", "glasses", "runs", "scene.camera.resolution=[256,256]", "spectral.photons_per_pass=65536", "stop.passes=4",
+    return [s.window("glasses-window", "glasses", "runs", "scene.camera.resolution=[256,256]",
+                     "spectral.photons_per_pass=65536", "stop.passes=4",
                      pinned=sorted(runs_of_sweep(s)))], 1
 
 
@@ -127,7 +132,8 @@ def batch_frames(s):
 
 
 def material_window(s):
-    return [s.window("heavy-window", "heavy-bunny", "dispersion", "scene.camera.resolution=[320,320]", "stop.passes=8")], 1
+    return [s.window("heavy-window", "heavy-bunny", "dispersion", "scene.camera.resolution=[320,320]",
+                     "stop.passes=8")], 1
 
 
 def material_colour(s):
@@ -136,7 +142,8 @@ def material_colour(s):
 
 
 def option_stripes(s):
-    return [s.render(f"jitter-{on}", "spectral/thesis/newton", *NEWTON, *STRIPES, f"spectral.jitter={on}", size=(640, 200), passes=4)
+    return [s.render(f"jitter-{on}", "spectral/thesis/newton", *NEWTON, *STRIPES, f"spectral.jitter={on}",
+                     size=(640, 200), passes=4)
             for on in ("false", "true")], 1
 
 
@@ -144,7 +151,8 @@ def option_plan(s):
     return [s.window("plan", "first-light", "plan", "scene.camera.resolution=[256,256]", "stop.passes=8")], 1
 
 
-PICTURES = [dispersion_glasses, dispersion_window, dispersion_designed, hdri_lights, hdri_glass, hdri_window, three_sheet, three_view, three_window,
+PICTURES = [dispersion_glasses, dispersion_window, dispersion_designed, hdri_lights, hdri_glass, hdri_window,
+            three_sheet, three_view, three_window,
             batch_sweep, batch_window, batch_frames, material_window, material_colour, option_stripes, option_plan]
 
 

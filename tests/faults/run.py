@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Puts faults into copies of kernels/, one at a time, and says which tests notice; fails where none does. README.md says more."""
+"""Puts faults into copies of kernels/, one at a time, and says which tests notice; fails where none does. README.md
+says more."""
 import argparse
 import json
 import os
@@ -28,22 +29,29 @@ KERNELS = Path(__file__).resolve().parents[2] / "kernels"
 # Suites whose tests take their kernels from NEPHROID_TEST_KERNELS, as GROUP.SUITE[:SUITE...], the quick ones first.
 SUITES = [
     "kernels.FresnelKernel", "kernels.Film", "kernels.Random", "kernels.Emission",
-    "kernels.AreaPoint:CameraJitter:ReflectOrRefract:Uniforms:ClusterChoice", "kernels.EmissionSamplers", "kernels.LowDiscrepancy",
-    "kernels.Guide", "kernels.PhotonMapTest", "kernels.Differential:PrismDifferential", "images.StoredPicture", "physics.RadianceInGlass",
-    "physics.AreaLight", "physics.AbsorbingPlate:Contact:Nested:Prism:TotalReflection:Plate", "physics.Radiometry:Photons",
-    "kernels.Trace:AgainstEmbree", "images.ErrorEstimate", "kernels.Photons:PhotonKernel", "physics.Background:BackgroundFurnace",
+    "kernels.AreaPoint:CameraJitter:ReflectOrRefract:Uniforms:ClusterChoice", "kernels.EmissionSamplers",
+    "kernels.LowDiscrepancy",
+    "kernels.Guide", "kernels.PhotonMapTest", "kernels.Differential:PrismDifferential", "images.StoredPicture",
+    "physics.RadianceInGlass",
+    "physics.AreaLight", "physics.AbsorbingPlate:Contact:Nested:Prism:TotalReflection:Plate",
+    "physics.Radiometry:Photons",
+    "kernels.Trace:AgainstEmbree", "images.ErrorEstimate", "kernels.Photons:PhotonKernel",
+    "physics.Background:BackgroundFurnace",
     "physics.Indirect:DiffuseFurnace", "physics.HalvesOfTheFilm:LowDiscrepancy:WholeClusters:WavelengthJitter",
     "physics.PhotonMaps:MapEstimators", "physics.MapBands", "physics.SmoothReceiver", "physics.SpectralDifferentials",
-    "kernels.Relighting", "physics.EnvironmentLight:HotTexel", "environment.Bake", "inverse.DeviceFacetsTest:Judge:Colours:Assignment",
+    "kernels.Relighting", "physics.EnvironmentLight:HotTexel", "environment.Bake",
+    "inverse.DeviceFacetsTest:Judge:Colours:Assignment",
 ]
 
 
 def command_of(build: Path, suites: str) -> list[str]:
     """What runs GROUP.SUITE[:SUITE...] of a build folder."""
     group, _, names = suites.partition(".")
-    command = [str(build / f"tests/{group}/{group}_tests"), "--gtest_filter=" + ":".join(f"{name}.*:*/{name}.*" for name in names.split(":"))]
+    command = [str(build / f"tests/{group}/{group}_tests"),
+               "--gtest_filter=" + ":".join(f"{name}.*:*/{name}.*" for name in names.split(":"))]
     try:
-        if "\n  " in subprocess.run([*command, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout:
+        if "\n  " in subprocess.run([*command, "--gtest_list_tests"], capture_output=True, text=True,
+                                    check=True).stdout:
             return command
     except FileNotFoundError:
         pass
@@ -60,7 +68,8 @@ def check_texts(faults: list[Fault], kernels: Path) -> int:
     """Says which faults cannot be put in, because their kernel has changed; 1 where there are such."""
     stale = [f for f in faults if places(f, kernels) != 1 or f.wrong == f.right]
     for fault in stale:
-        print(f"run.py: {FAULTS_FILE.name}, {fault.name!r}: {places(fault, kernels)} places in {fault.file} read {fault.right!r}; one is expected")
+        print(f"run.py: {FAULTS_FILE.name}, {fault.name!r}: {places(fault, kernels)} places in {fault.file} read "
+              f"{fault.right!r}; one is expected")
     return 1 if stale else 0
 
 
@@ -77,7 +86,8 @@ def failed_tests(command: list[str], kernels: Path, timeout_s: int) -> list[str]
     environment = dict(os.environ, NEPHROID_TEST_KERNELS=str(kernels), POCL_CACHE_DIR=str(kernels.parent / "cache"))
     name = " ".join([Path(command[0]).name, *command[1:]])
     try:
-        ended = subprocess.run(command, env=environment, cwd=kernels.parent, capture_output=True, text=True, errors="replace", timeout=timeout_s)
+        ended = subprocess.run(command, env=environment, cwd=kernels.parent, capture_output=True, text=True,
+                               errors="replace", timeout=timeout_s)
     except subprocess.TimeoutExpired:
         return [f"{name} hangs"]
     failed = sorted(set(re.findall(r"^\[  FAILED  \] ([\w/]+\.[\w/]+)", ended.stdout, re.MULTILINE)))
@@ -96,7 +106,8 @@ def run(commands: list[list[str]], fault: Fault | None, arguments: argparse.Name
             put_in(fault, kernels)
         caught = []
         for command in commands:
-            caught += failed_tests([part.replace("{kernels}", str(kernels)) for part in command], kernels, arguments.timeout)
+            caught += failed_tests([part.replace("{kernels}", str(kernels)) for part in command], kernels,
+                                   arguments.timeout)
             if caught and fault and not arguments.all:
                 break
         return caught
@@ -106,12 +117,17 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--build", type=Path, help="a build folder with its tests built")
-    what.add_argument("--check-texts", action="store_true", help="only see that every fault still finds its place in the kernels")
+    what.add_argument("--check-texts", action="store_true",
+                      help="only see that every fault still finds its place in the kernels")
     parser.add_argument("--kernels", type=Path, default=KERNELS, help="the right kernels (default: kernels/)")
-    parser.add_argument("--only", metavar="TEXT", action="append", help="faults whose name contains this; may be given again")
-    parser.add_argument("--suites", metavar="GROUP.SUITE", nargs="+", default=SUITES, help="suites of tests, by name or pattern")
-    parser.add_argument("--all", action="store_true", help="run every test for every fault, rather than until one fails")
-    parser.add_argument("--timeout", type=int, default=600, help="seconds after which a suite hangs (default: %(default)s)")
+    parser.add_argument("--only", metavar="TEXT", action="append",
+                        help="faults whose name contains this; may be given again")
+    parser.add_argument("--suites", metavar="GROUP.SUITE", nargs="+", default=SUITES,
+                        help="suites of tests, by name or pattern")
+    parser.add_argument("--all", action="store_true",
+                        help="run every test for every fault, rather than until one fails")
+    parser.add_argument("--timeout", type=int, default=600,
+                        help="seconds after which a suite hangs (default: %(default)s)")
     arguments = parser.parse_args()
 
     all_faults = [Fault(**f) for group in json.loads(FAULTS_FILE.read_text()).values() for f in group]

@@ -80,6 +80,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   using nephroid::test::processor_seconds;
   const double began = processor_seconds();
   accepts([&] { read({reinterpret_cast<const char*>(bytes), size}); });
-  if (const double seconds = processor_seconds() - began; seconds > 1) finding(fmt::format("{:.1f} s of processor time", seconds));
+  if (const double seconds = processor_seconds() - began; seconds > 5) finding(fmt::format("{:.1f} s of processor time", seconds));
   return 0;
 }

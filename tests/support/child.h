@@ -51,7 +51,7 @@ public:
 
   void send(int signal) const { ::kill(pid_, signal); }
 
-  /// Until condition() holds or the child is gone or a minute is over; says whether it holds.
+  /// Until condition() holds or the child is gone or five minutes are over; says whether it holds.
   template <class Condition>
   bool until(Condition condition) const
   {

@@ -32,6 +32,17 @@ inline std::vector<nlohmann::json> json_lines(const std::string& text)
   return lines;
 }
 
+/// What a run says on standard error, but for its progress: a line every three seconds, so that their number hangs on the machine.
+inline std::vector<std::string> messages_of(const Ended& ended)
+{
+  static const std::regex progress(R"(.*\] +\d+ %  .*)");
+  std::vector<std::string> lines;
+  std::istringstream stream(ended.err);
+  for (std::string line; std::getline(stream, line);)
+    if (!std::regex_match(line, progress)) lines.push_back(line);
+  return lines;
+}
+
 /// A command line that is refused.
 struct Wrong {
   std::vector<std::string> arguments;

@@ -26,6 +26,7 @@
 #include <optional>
 #include <ostream>
 #include <random>
+#include <regex>
 #include <set>
 #include <span>
 #include <sstream>

@@ -64,12 +64,12 @@ private:
 };
 
 /// Waits for what another thread or process does, until it is seen and not for a time that a slow machine would need:
-/// calls step() and rests for a moment in turn until done(); says whether it was done before a minute was over, which no machine needs.
+/// calls step() and rests for a moment in turn until done(); says whether it was done before five minutes were over, which no machine needs.
 template <class Step, class Done>
 bool eventually(Step step, Done done)
 {
   using namespace std::chrono;
-  const auto end = steady_clock::now() + minutes(1);
+  const auto end = steady_clock::now() + minutes(5);
   while (!done()) {
     if (steady_clock::now() > end) return false;
     step();

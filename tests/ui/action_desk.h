@@ -56,16 +56,10 @@ public:
     std::uint64_t run = 0;
   } before;
 
-  /// Draws frames until it holds. An action takes a frame, its run a few: what does not hold some seconds later is not to come.
+  /// Draws frames until it holds.
   bool comes_to(const std::function<bool(Desk&)>& condition)
   {
-    bool holds = condition(*this); // asked no more once it holds: it may be so once only
-    for (int i = 0; i < 300 && !holds; ++i) {
-      frame();
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      holds = condition(*this);
-    }
-    return holds;
+    return until([&] { return condition(*this); });
   }
 
   /// The palette, its name, Enter. False, and nothing is done, where the palette has another action first.

@@ -15,6 +15,18 @@ namespace nephroid::test {
 
 inline double thread_ms() { return 1e3 * processor_seconds(CLOCK_THREAD_CPUTIME_ID); }
 
+/// What bounds on thread_ms() are multiplied by: how many times as long as on the machine they were set on (5 ms) this
+/// thread takes here to sort numbers; at least 1.
+inline double slowness()
+{
+  const double begin = thread_ms();
+  std::mt19937 random(1);
+  std::vector<std::mt19937::result_type> numbers(100'000);
+  std::generate(numbers.begin(), numbers.end(), random);
+  std::sort(numbers.begin(), numbers.end());
+  return std::max(1.0, (thread_ms() - begin) / 5);
+}
+
 class Headless {
 public:
   Headless()

@@ -81,16 +81,16 @@ TEST_F(WorkbenchTest, AnEditOutOfRangeIsRefusedInOneMessage)
 
 TEST_F(WorkbenchTest, PartsOfAPictureHideAWholeOneOnlyWhereTheRunIsSlow)
 {
-  runs.whole_from = 4;
-  runs.step_ms = 20; // a snapshot after the first step, and then each 100 ms
+  runs.whole_from = runs.steps = 100000;
   open();
   ASSERT_TRUE(shows_z(4));
   EXPECT_FALSE(workbench.run().snapshot()->progress.whole) << "parts are better than nothing";
-  ASSERT_TRUE(until(job::State::finished));
+  runs.whole_from = 2;
+  runs.step_ms = 20; // a snapshot after the first step, and then each 100 ms
   edit_z(2);
   ASSERT_TRUE(shows_z(2));
   EXPECT_TRUE(workbench.run().snapshot()->progress.whole);
-  runs.whole_from = runs.steps = 100000;
+  runs.whole_from = 100000;
   edit_z(3);
   ASSERT_TRUE(shows_z(3));
   EXPECT_FALSE(workbench.run().snapshot()->progress.whole) << "what there is of it after a second";
@@ -108,17 +108,18 @@ TEST_F(WorkbenchTest, DuringAGestureEveryRunShowsAPictureBeforeTheNextReplacesIt
   open_endless();
   runs.make_ms = 20; // slower than the mouse moves
   int pictures = 0;
+  double z = 3;
   std::shared_ptr<const job::Snapshot> last = workbench.run().snapshot();
-  for (int move = 0; move < 100; ++move) {
-    edit_z(3 + 0.01 * move, 1, true);
+  const auto move = [&] {
+    edit_z(z += 0.001, 1, true);
     workbench.update();
     if (workbench.run().snapshot() != last) ++pictures;
     last = workbench.run().snapshot();
     std::this_thread::sleep_for(3ms);
-  }
-  EXPECT_GE(pictures, 4) << "something is seen while the mouse moves";
+  };
+  ASSERT_TRUE(eventually(move, [&] { return pictures >= 4; })) << "something is seen while the mouse moves";
   workbench.apply({command::EndGesture{}});
-  ASSERT_TRUE(shows_z(static_cast<float>(3 + 0.01 * 99)));
+  ASSERT_TRUE(shows_z(static_cast<float>(z)));
   workbench.apply({command::Undo{}});
   EXPECT_EQ(workbench.preset()->scene.camera.position[2], 4) << "the gesture is one entry";
 }

@@ -2,6 +2,7 @@
 // Small parts of base/ and preset/: counts in words, numbers as people type them, places and how they read (RFC 6901), which field an
 // error is about, and the memory that a run is refused for.
 #include "base/counted.h"
+#include "base/numbers.h"
 #include "base/place.h"
 #include "cli/verb.h"
 #include "preset/origins.h"
@@ -18,7 +19,7 @@ using nephroid::counted;
 using nephroid::Error;
 using nephroid::Place;
 using nephroid::pointer_key;
-using nephroid::cli::typed_number;
+using nephroid::typed_number;
 using preset::field_of;
 
 TEST(Counted, OneAndMany)

@@ -114,6 +114,22 @@ TEST(House, sources_are_one_subject_under_500_lines)
   });
 }
 
+// Those that clang-format writes have its limit.
+TEST(House, lines_are_within_120_columns)
+{
+  expect_no([](const fs::path& file) -> std::string {
+    const bool formatted = file.extension() == ".cpp" || (file.extension() == ".h" && *file.begin() != "kernels");
+    if (!is_source(file) || formatted) return "";
+    int number = 0;
+    for (const std::string& line : lines_of(text_of(root / file))) {
+      ++number;
+      // Bytes that go on with a character of UTF-8 take no column.
+      if (std::ranges::count_if(line, [](char c) { return (c & 0xc0) != 0x80; }) > 120) return fmt::format("line {}", number);
+    }
+    return "";
+  });
+}
+
 // Several are compiled as one, and a suite runs in one process: a fixture of the same name elsewhere would be another's.
 TEST(House, tests_are_in_a_namespace_of_their_own_and_suites_in_one_file)
 {

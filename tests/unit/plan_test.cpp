@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run says about itself before and while it works: the plan as JSON and as text, the switch that a plan names for a pass (the window
-// draws a check box from it and the command line names it), the files in its folder, its progress.
-#include "cli/progress.h"
+// The plan as JSON and as text, and the switch that it names for a pass: the window draws a check box from it and the
+// command line names it.
 #include "plan/plan.h"
 #include "preset/read.h"
-#include "run/run.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
-#include "tests/support/process_state.h"
+#include "tests/support/test.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,7 +14,6 @@ namespace nephroid::plan_test {
 using nephroid::plan::Plan;
 using Json = nlohmann::json;
 using Estimator = photons::Settings::Estimator;
-using namespace nephroid::cli;
 
 Plan example()
 {
@@ -203,184 +200,5 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PlanFields, testing::Values("ball", "lines", "d
                                name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
                            return name;
                          });
-
-class RunFolder : public testing::Test {
-protected:
-  void SetUp() override
-  {
-    write_file_whole(folder / "image.exr", "a picture");
-    write_file_whole(folder / "preset.json", preset::to_json(preset, folder) + "\n");
-  }
-  std::optional<run::FinishedRun> with_run_json(const std::string& text) const
-  {
-    write_file_whole(folder / "run.json", text);
-    return run::finished_run(folder, preset);
-  }
-  const preset::Preset preset = test::empty_preset();
-  const test::TemporaryFolder temporary;
-  const fs::path folder = temporary.path();
-};
-
-constexpr const char* whole =
-    R"({"finished":true,"passes":7,"photons":9000000000,"units":{"steps":"passes","work":"photons"},"work_seconds":1.5})";
-
-TEST_F(RunFolder, AFinishedRunSaysHowFarItCame)
-{
-  const auto run = with_run_json(whole);
-  ASSERT_TRUE(run);
-  EXPECT_EQ(run->progress.fraction, 1);
-  EXPECT_EQ(run->progress.step, 7);
-  EXPECT_EQ(run->progress.work, 9000000000u);
-  EXPECT_EQ(run->progress.work_seconds, 1.5);
-}
-
-TEST_F(RunFolder, AFinishedRunCountsAsItsEngineDoes)
-{
-  const auto run = with_run_json(
-      R"({"finished":true,"sweeps":1,"facets":8,"units":{"step":"sweep","steps":"sweeps","work":"facets"},"work_seconds":1})");
-  ASSERT_TRUE(run);
-  EXPECT_EQ(run->progress.units.step, "sweep");
-  EXPECT_EQ(run->progress.units.steps, "sweeps");
-  EXPECT_EQ(run->progress.units.works, "facets");
-}
-
-TEST_F(RunFolder, OnlyAFolderThatWasMadeIsNew)
-{
-  fs::create_directory(folder / "of the user");
-  for (const char* name : {"of the user", "new"}) run::ClaimedFolder(folder / name);
-  EXPECT_TRUE(fs::exists(folder / "of the user"));
-  EXPECT_FALSE(fs::exists(folder / "new"));
-}
-
-TEST_F(RunFolder, IsClaimedOnce)
-{
-  const auto claim = [&](bool alone) { return run::ClaimedFolder(folder / "film", alone); };
-  const auto refused = [&](bool alone) {
-    EXPECT_THAT([&] { claim(alone); }, ThrowsMessage<Error>(HasSubstr("is written into by another command")));
-  };
-  {
-    const auto claimed = claim(true);
-    refused(true);
-    refused(false);
-  }
-  {
-    const auto some = claim(false), others = claim(false);
-    refused(true);
-  }
-  claim(true);
-}
-
-TEST_F(RunFolder, AnotherPresetIsAnotherRun)
-{
-  ASSERT_TRUE(with_run_json(whole));
-  preset::Preset other = preset;
-  other.seed = 2;
-  EXPECT_FALSE(run::finished_run(folder, other));
-  fs::remove(folder / "image.exr");
-  EXPECT_FALSE(run::finished_run(folder, preset));
-}
-
-TEST_F(RunFolder, ADamagedRunJsonIsNoFinishedRun)
-{
-  for (const char* text : {"", "{", "[]", "7", "{}", R"({"finished":false})", R"({"finished":true})", R"({"finished":"yes"})",
-                           R"({"finished":true,"passes":"7","photons":1,"work_seconds":1})",
-                           R"({"finished":true,"passes":7,"photons":1,"work_seconds":null})", "\xff\xfe"})
-    EXPECT_FALSE(with_run_json(text)) << text;
-}
-
-job::Progress at(double fraction, std::int64_t step, std::uint64_t photons, double work_seconds)
-{
-  return {.fraction = fraction, .step = step, .steps = 100, .work = photons, .work_seconds = work_seconds};
-}
-
-TEST(Pace, IsThatOfThisSessionOnly)
-{
-  // Resumed at half way after 100 s of work on a slow machine; here a quarter took 5 s.
-  const job::Pace pace = job::pace_between(at(0.5, 50, 1'000'000, 100), at(0.75, 75, 3'000'000, 105));
-  EXPECT_DOUBLE_EQ(pace.work_per_second, 400'000);
-  EXPECT_DOUBLE_EQ(pace.seconds_left, 5);
-}
-
-TEST(Pace, IsUnknownAtTheStart)
-{
-  const job::Pace pace = job::pace_between(at(0, 0, 0, 0), at(0, 0, 0, 0));
-  EXPECT_EQ(pace.work_per_second, 0);
-  EXPECT_LT(pace.seconds_left, 0);
-}
-
-TEST(ProgressLine, HasBarPassRateAndTimeLeft)
-{
-  const std::string line = progress_line("prism", at(0.5, 50, 0, 0), {1.214e6, 3661}, 100);
-  EXPECT_EQ(line, "prism  [###############---------------]   50 %  pass 51 of 100  1.21 M photons/s  1:01:01 left");
-  EXPECT_THAT(progress_line("prism", at(0.999, 99, 0, 0), {950, 7.4}, 100), HasSubstr(" 99 %  pass 100 of 100  950 photons/s  0:07 left"));
-  EXPECT_THAT(progress_line("prism", at(0, 0, 0, 0), {}, 100), Not(HasSubstr("left"))) << "no figure before there is one";
-}
-
-TEST(ProgressLine, CountsThePassInHand)
-{
-  EXPECT_THAT(progress_line("prism", at(0.004, 0, 0, 0), {}, 100), HasSubstr("  0 %  pass 1 of 100"));
-  EXPECT_THAT(progress_line("prism", at(1, 100, 0, 0), {}, 100), HasSubstr("100 %  pass 100 of 100"));
-  job::Progress by_time = at(0.5, 7, 0, 0);
-  by_time.steps = -1;
-  EXPECT_THAT(progress_line("prism", by_time, {}, 100), EndsWith(" 50 %  pass 8"));
-}
-
-TEST(ProgressLine, NeverIsWiderThanTheTerminal)
-{
-  for (int columns = 0; columns < 200; ++columns)
-    EXPECT_LE(progress_line("a-rather-long-name-of-a-preset", at(1, 1'000'000, 0, 0), {1e12, 1e12}, columns).size(),
-              static_cast<std::size_t>(std::max(columns, 1)));
-}
-
-TEST(ProgressJson, IsOneLineOfValidJsonWithNullsForTheUnknown)
-{
-  const std::string line = progress_json({"label", "odd \"name\"\n\xff"}, at(0.25, 3, 12, 0.5), {});
-  EXPECT_THAT(line, Not(HasSubstr("\n")));
-  const auto json = Json::parse(line);
-  EXPECT_EQ(json["type"], "progress");
-  EXPECT_EQ(json["name"], "odd \"name\"\n\xef\xbf\xbd");
-  EXPECT_EQ(json["stage"], "run");
-  EXPECT_EQ(Json::parse(progress_json({"", "", "reference"}, at(0, 0, 0, 0), {}))["stage"], "reference");
-  EXPECT_EQ(json["fraction"], 0.25);
-  EXPECT_EQ(json["step"], 3);
-  EXPECT_EQ(json["photons"], 12);
-  EXPECT_TRUE(json["seconds_left"].is_null());
-  job::Progress endless = at(0, 1, 0, 0);
-  endless.steps = -1;
-  EXPECT_TRUE(Json::parse(progress_json({}, endless, {}))["steps"].is_null());
-}
-
-TEST(ProgressStyle, IsJsonWhereAskedAndLinesWithoutATerminal)
-{
-  EXPECT_EQ(progress_style(true), ProgressStyle::json);
-  const test::Variable terminal("TERM", "dumb");
-  EXPECT_EQ(progress_style(false), ProgressStyle::lines);
-}
-
-TEST(ProgressDisplay, JsonShowsTheEndWhateverTheRhythm)
-{
-  testing::internal::CaptureStdout();
-  {
-    ProgressDisplay display(ProgressStyle::json, {}, at(0, 0, 0, 0));
-    display.update(at(0.5, 1, 10, 1)); // within the first half second: not shown
-    display.finish(at(1, 2, 20, 2));
-  }
-  const std::string shown = testing::internal::GetCapturedStdout();
-  EXPECT_EQ(std::count(shown.begin(), shown.end(), '\n'), 1);
-  EXPECT_EQ(Json::parse(shown)["fraction"], 1.0);
-}
-
-TEST(ProgressDisplay, TheLiveLineIsTakenAway)
-{
-  testing::internal::CaptureStderr();
-  {
-    ProgressDisplay display(ProgressStyle::live, {"a", ""}, at(0, 0, 0, 0));
-    std::this_thread::sleep_for(std::chrono::milliseconds(110));
-    display.update(at(0.5, 1, 10, 1));
-  }
-  const std::string shown = testing::internal::GetCapturedStderr();
-  EXPECT_THAT(shown, HasSubstr("\ra  [##"));
-  EXPECT_THAT(shown, EndsWith("\r\033[K"));
-}
 
 } // namespace nephroid::plan_test

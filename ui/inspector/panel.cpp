@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <implot.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::ui {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The widgets of single values: a number is dragged or typed, a word is chosen, a text is typed, a file is chosen.
 #include "base/files.h"
+#include "base/numbers.h"
 #include "optics/spectrum.h"
 #include "preset/change_engine.h"
 #include "preset/field.h"
@@ -10,7 +11,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
@@ -28,18 +28,11 @@ Json number_from(const std::string& text)
 {
   const std::size_t first = text.find_first_not_of(" +"), last = text.find_last_not_of(' ');
   if (first == std::string::npos) return text;
-  const char* const begin = text.data() + first;
-  const char* const end = text.data() + last + 1;
-  const auto all = [&](auto& value) {
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    return error == std::errc() && stop == end;
-  };
-  std::uint64_t natural = 0;
-  std::int64_t integer = 0;
-  double real = 0;
-  if (all(natural)) return natural;
-  if (all(integer)) return integer;
-  return all(real) && std::isfinite(real) ? Json(real) : Json(text);
+  const std::string_view number = std::string_view(text).substr(first, last + 1 - first);
+  if (const auto natural = number_in<std::uint64_t>(number)) return *natural;
+  if (const auto integer = number_in<std::int64_t>(number)) return *integer;
+  const auto real = number_in<double>(number);
+  return real && std::isfinite(*real) ? Json(*real) : Json(text);
 }
 
 /// A pixel of a drag: a hundredth of the number's power of ten.

@@ -10,6 +10,8 @@
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace nephroid::ui {
 namespace {
 

@@ -4,6 +4,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "base/lower_case.h"
+#include "base/numbers.h"
 #include "preset/outline.h"
 #include "preset/read.h"
 #include "ui/widgets/action.h"
@@ -13,7 +14,7 @@
 #include <fmt/ranges.h>
 #include <imgui.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <tuple>
@@ -67,18 +68,12 @@ void check_value(const NumberField& field, double value, const std::string& show
 /// A number as people type it: ".5", "+3", "1e5".
 std::string typed_value(const NumberField& field, const std::string& word)
 {
-  const char* const begin = word.data() + (word.starts_with('+') ? 1 : 0);
-  const char* const end = word.data() + word.size();
-  const auto all = [&](auto& value) {
-    const auto [stop, error] = std::from_chars(begin, end, value);
-    return error == std::errc() && stop == end;
-  };
-  double value = 0;
-  if (!all(value)) throw bad_input(field.key, "a value is no number", "expected numbers with commas between");
-  check_value(field, value, fmt::format("{:g}", value));
+  const auto value = typed_number<double>(word);
+  if (!value) throw bad_input(field.key, "a value is no number", "expected numbers with commas between");
+  check_value(field, *value, fmt::format("{:g}", *value));
   // Whole numbers beyond those of a double stay as they were typed.
-  if (std::uint64_t natural = 0; field.whole && all(natural)) return std::to_string(natural);
-  return text_of(field, value);
+  if (const auto natural = typed_number<std::uint64_t>(word); field.whole && natural) return std::to_string(*natural);
+  return text_of(field, *value);
 }
 
 const std::vector<std::string>& all_different(const NumberField& field, const std::vector<std::string>& values)

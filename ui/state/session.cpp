@@ -10,6 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <deque>
+
 namespace nephroid::ui {
 namespace {
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace nephroid::ui {
 
 void SweepQueue::start(const preset::Preset& preset, const preset::Sweep& sweep)

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace nephroid::cli {
 namespace fs = std::filesystem;
 namespace {

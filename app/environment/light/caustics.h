@@ -10,7 +10,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace nephroid::environment {
@@ -30,47 +29,6 @@ struct CastTexels {
     return {{"list", *list},           {"first", first},      {"count", count},       {"size", size},
             {"distances", *distances}, {"normals", *normals}, {"caustics", *caustics}};
   }
-};
-
-/// What is looked up, all of it on the device.
-struct TurnedSpheres {
-  const compute::Buffer<std::uint16_t>& stored;
-  const compute::Buffer<float>& radii;
-  const compute::Buffer<shared::DeviceEightSets>& sets;
-  shared::DeviceSpheres spheres;
-  shared::float4 object_x, object_y, object_z; ///< the object's axes in the scene
-};
-
-/// Caustics on receivers, put together set after set in the ways that the thesis compares (table 3.3): kernels/environment/one_by_one.cl.
-class OneByOne {
-public:
-  /// stored: spheres of all baked directions in their stored form, direction after direction. Throws failed where the device has not enough
-  /// memory.
-  OneByOne(Technique technique, const std::vector<std::uint16_t>& stored, std::size_t directions, std::size_t channels,
-           const compute::Context& context);
-
-  /// On the device, beside TurnedSpheres. texels: in their stored form, of all spheres of one direction.
-  static std::uint64_t bytes(Technique technique, std::size_t texels, std::size_t directions, std::size_t channels);
-
-  /// sets: as turned.sets has them.
-  void set_lights(const TurnedSpheres& turned, const std::vector<TurnedSet>& sets);
-  /// turned: as set_lights had it.
-  void cast(const TurnedSpheres& turned, const CastTexels& texels);
-
-private:
-  struct Launch {
-    int first_set = 0;
-    std::vector<int> directions; ///< of its sets
-  };
-  /// As many as it takes for all sets. own: further arguments.
-  void run(compute::Kernel& kernel, std::uint32_t items, const TurnedSpheres& turned, const std::vector<compute::Argument>& own);
-
-  Technique technique_;
-  compute::Context context_;
-  std::vector<compute::Buffer<std::uint16_t>> direction_spheres_; ///< [direction], or all in TurnedSpheres::stored
-  compute::Buffer<float> compiled_;                          ///< [sphere][texel of the stored form][3]
-  std::vector<Launch> launches_;
-  compute::Kernel cast_, compile_, cast_compiled_;
 };
 
 class Caustics {
@@ -107,9 +65,9 @@ public:
 private:
   template <class Work>
   void timed(const Work& work);
-  TurnedSpheres turned() const;
 
   compute::Context context_;
+  Technique technique_;
   int directions_; ///< of the bake
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint16_t> stored_, ways_;
@@ -117,10 +75,10 @@ private:
   compute::Buffer<float> radii_;
   Air air_;
   compute::Buffer<shared::DeviceEightSets> sets_;
-  int used_eights_ = 0; ///< of the buffer's
+  int set_count_ = 0, used_eights_ = 0; ///< of the buffer's
+  compute::Buffer<float> compiled_;     ///< [sphere][texel of the stored form][3], by Technique::compiled
   double seconds_ = 0;
-  compute::Kernel cast_, compile_air_;
-  std::optional<OneByOne> one_by_one_; ///< by the thesis' techniques
+  compute::Kernel cast_, compile_, compile_air_; ///< compile_ is of Technique::compiled
 };
 
 } // namespace nephroid::environment

@@ -7,6 +7,7 @@
 #include "inverse/bending.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 

@@ -3,6 +3,8 @@
 #pragma once
 #include "inverse/facets/solid.h"
 
+#include <limits>
+
 namespace nephroid::inverse {
 
 /// Part of the facets' area that a ball of this radius, in mm, cannot touch without cutting into a facet or a wall, over facets between

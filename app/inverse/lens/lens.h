@@ -8,6 +8,7 @@
 #include "inverse/poisson.h"
 
 #include <functional>
+#include <limits>
 
 namespace nephroid::inverse {
 

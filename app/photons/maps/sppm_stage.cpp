@@ -8,11 +8,13 @@
 #include "photons/maps/eye_paths.h"
 #include "photons/maps/photon_map.h"
 #include "photons/stage.h"
+#include "tracing/film.h"
 #include "tracing/scales.h"
 #include "tracing/slices.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>

@@ -4,8 +4,9 @@
     blender --python blender.py                                   opens it
     blender -b --python blender.py -o //picture_ -f 1             renders it without a window
 
-Nephroid's `export` wrote this file. Light that comes through glass or from a mirror is in the pictures caustic-*.exr, in W/m^2, and each
-receiver sends out what it reflects of it. So Cycles must not make caustics itself: these are switched off, and glass keeps its shadow.
+Nephroid's `export` wrote this file. Light that comes through glass or from a mirror is in the pictures caustic-*.exr,
+in W/m^2, and each receiver sends out what it reflects of it. So Cycles must not make caustics itself: these are
+switched off, and glass keeps its shadow.
 """
 import json
 from math import log2, pi, radians
@@ -61,7 +62,8 @@ def make_matt(name, rgb, caustic):
         links.new(picture(nodes, caustic["file"]).outputs["Color"], seen.inputs[0])
         side = nodes.new("ShaderNodeMath")  # light falls on one side: 0 on the other
         side.operation = "MULTIPLY_ADD"
-        side.inputs[1].default_value, side.inputs[2].default_value = (-1 / pi, 1 / pi) if caustic["front"] else (1 / pi, 0)
+        factor, offset = (-1 / pi, 1 / pi) if caustic["front"] else (1 / pi, 0)
+        side.inputs[1].default_value, side.inputs[2].default_value = factor, offset
         links.new(nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"], side.inputs[0])
         light = nodes.new("ShaderNodeEmission")
         links.new(seen.outputs["Vector"], light.inputs["Color"])
@@ -77,7 +79,8 @@ def make_matt(name, rgb, caustic):
 def make_materials():
     caustics = {c["object"]: c for c in ABOUT["caustics"]}
     for name, rgb in ABOUT["matt"].items():
-        mesh = bpy.data.meshes.get(name[:63])  # as much of it as Blender keeps; of an object without triangles there is none
+        # as much of it as Blender keeps; of an object without triangles there is none
+        mesh = bpy.data.meshes.get(name[:63])
         if mesh:
             mesh.materials.clear()
             mesh.materials.append(make_matt(name, rgb, caustics.get(name)))
@@ -92,7 +95,8 @@ def add_area_lights():
         item = bpy.data.objects.new(light.name, light)
         back = -to_blender(about["direction"]).normalized()  # a lamp shines along its -z
         x = edges[0].normalized()
-        item.matrix_world = Matrix.Translation(to_blender(about["position_m"])) @ Matrix((x, back.cross(x), back)).transposed().to_4x4()
+        turn = Matrix((x, back.cross(x), back)).transposed().to_4x4()
+        item.matrix_world = Matrix.Translation(to_blender(about["position_m"])) @ turn
         bpy.context.scene.collection.objects.link(item)
 
 

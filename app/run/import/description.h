@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <map>
 #include <optional>
 

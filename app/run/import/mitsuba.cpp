@@ -3,6 +3,7 @@
 // looks along its +z axis with +x to the left.
 #include "base/error.h"
 #include "base/files.h"
+#include "base/numbers.h"
 #include "optics/colour.h"
 #include "optics/spectrum.h"
 #include "run/import/description.h"
@@ -15,9 +16,9 @@
 #include <pugixml.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <list>
+#include <sstream>
 
 namespace nephroid::run {
 namespace fs = std::filesystem;
@@ -95,20 +96,15 @@ private:
   std::vector<double> numbers(xml_node node, const char* key) const
   {
     std::string text = attribute(node, key);
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return c == ',' || c == '\n' || c == '\t' || c == '\r'; }, ' ');
+    std::ranges::replace(text, ',', ' ');
     std::vector<double> values;
-    const char *from = text.data(), *end = from + text.size();
-    while (true) {
-      while (from < end && (*from == ' ' || *from == '+')) ++from;
-      if (from == end) return values;
-      double value = 0;
-      const auto [to, error] = std::from_chars(from, end, value);
-      if (error != std::errc() || !std::isfinite(value) || std::abs(value) > 1e12)
-        throw bad_input(at(node), fmt::format("\"{}\" is no number", text), "expected numbers");
-      values.push_back(value);
-      from = to;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+      const auto value = typed_number<double>(word);
+      if (!value || !(std::abs(*value) <= 1e12)) throw bad_input(at(node), fmt::format("\"{}\" is no number", text), "expected numbers");
+      values.push_back(*value);
     }
+    return values;
   }
   double number_of(xml_node node, const char* key, double standard) const
   {
@@ -229,9 +225,8 @@ private:
     std::string axis = text(node, "fov_axis", "x");
     double fov = number(node, "fov", 0);
     if (!child(node, "fov")) { // of a film of 36 by 24 mm
-      std::string length = text(node, "focal_length", "50mm");
-      double mm = 50;
-      std::from_chars(length.data(), length.data() + length.size(), mm);
+      const std::string length = text(node, "focal_length", "50mm");
+      const double mm = number_in<double>(std::string_view(length).substr(0, length.find_first_not_of("0123456789."))).value_or(50);
       fov = glm::degrees(2 * std::atan(std::hypot(36.0, 24.0) / (2 * std::max(mm, 1e-3))));
       axis = "diagonal";
     }

@@ -3,11 +3,11 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/numbers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace nephroid::run {
@@ -64,12 +64,10 @@ std::vector<double> PbrtParameter::numbers() const
 {
   std::vector<double> result;
   for (const std::string& text : values) {
-    double value = 0;
-    const char *from = text.data() + (text.starts_with('+') ? 1 : 0), *end = text.data() + text.size();
-    const auto [to, error] = std::from_chars(from, end, value);
-    if (error != std::errc() || to != end || !std::isfinite(value) || std::abs(value) > 1e12)
+    const auto value = typed_number<double>(text);
+    if (!value || !(std::abs(*value) <= 1e12))
       throw bad_input(where, fmt::format("\"{}\" of \"{}\" is no number", text, name), "expected numbers");
-    result.push_back(value);
+    result.push_back(*value);
   }
   return result;
 }

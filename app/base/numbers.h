@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers of texts: as files have them, and as people type them.
+#pragma once
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+namespace nephroid {
+
+/// The number that all of the text is; nothing where it is none or out of range. "nan" and "inf" are numbers, "+3" is
+/// none.
+template <class Number>
+std::optional<Number> number_in(std::string_view text)
+{
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+/// A number as people type it: 3, +3, .02, 5., 1e5. Nothing where it is none or, of whole numbers, is not whole or not
+/// exact.
+template <class Number>
+std::optional<Number> typed_number(std::string_view text)
+{
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  if (const std::optional<Number> number = number_in<Number>(text)) return number;
+  if constexpr (std::integral<Number>) {
+    constexpr double exact = 1ll << 53;
+    const std::optional<double> value = number_in<double>(text);
+    if (value && std::abs(*value) <= std::min(exact, static_cast<double>(std::numeric_limits<Number>::max())) &&
+        std::trunc(*value) == *value && (*value >= 0 || std::signed_integral<Number>))
+      return static_cast<Number>(*value);
+  }
+  return std::nullopt;
+}
+
+} // namespace nephroid
