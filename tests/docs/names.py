@@ -130,7 +130,7 @@ class Project:
 
     def missing(self, text, page, given):
         """What of the text in backticks does not exist."""
-        if text in EXCEPTIONS or re.match(r"(nephroid|\./run\.sh)\b", text) or re.search(r"[^\x00-\x7f]", text):
+        if text in EXCEPTIONS or re.match(r"(nephroid|\./run\.sh|git )", text) or re.search(r"[^\x00-\x7f]", text):
             return []  # commands are read by commands.py
         if re.fullmatch(r"[\w.*-]+(/[\w.*-]+)*/?", text) and ("/" in text or re.fullmatch(rf".*\w\.({ENDINGS})", text)):
             return [] if text in given or text.startswith("out/") or self.has_path(text, page) else [text]
