@@ -169,7 +169,7 @@ def page_failures(project, name, text):
             pattern = r"\s+".join(re.escape(word).replace(r"\.\.\.", r"(?:.|\n)*?") for word in line.split())
             if not re.search(pattern, project.strings):
                 yield f"{name}:{number}: no source has this line"
-    yield from misplaced(project, name, outside, r"`([\w:]+)` in `([\w/]+\.\w+)`")
+    yield from misplaced(project, name, outside, r"`([\w:]+)` (?:in |\()`([\w/]+\.(?:h|cpp|cl|py|cmake))`")
 
 
 def comment_failures(project, name, comments):
