@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a preset to a running engine and to the files of a finished run: the one place that knows all engines.
-// The command line and the window both come through here.
+// From a preset to a running engine and to the files of a finished run. Which engines there are is in app/engines.cpp. The command line,
+// the window and the Python module all come through here.
 #pragma once
 #include "base/file_lock.h"
 #include "base/watch.h"

@@ -18,8 +18,8 @@ inline constexpr double film_limit = 0x1p42;
 struct Film {
   std::vector<std::int64_t> sums; ///< [half][pixel of the picture][3]: XYZ radiance in quanta, added up over samples
   double quanta_per_unit = 1;     ///< quanta of what becomes 1 in the picture
-  /// How many samples, or passes of photons, the sums of a pixel hold: from the even and from the odd passes. A film without halves has
-  /// all of them in one image.
+  /// How many samples, or rounds or passes of photons, the sums of a pixel hold: the even and the odd ones. A film without halves has all
+  /// of them in one image.
   std::function<std::array<double, 2>(std::size_t pixel)> samples;
 };
 
@@ -31,7 +31,7 @@ job::Layer& layer_of(job::Picture& picture, const std::string& name);
 /// clear stays so.
 void add_layer(const std::string& name, const Film& film, job::Picture& picture);
 
-/// Even and odd passes of `passes` complete ones, and `part` of the next: what the halves of a film have had.
+/// Even and odd ones of `passes` complete passes or rounds, and `part` of the next: what the halves of a film have had.
 std::array<double, 2> halves_of(std::int64_t passes, double part);
 
 } // namespace nephroid::tracing

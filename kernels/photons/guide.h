@@ -2,7 +2,7 @@
 // Photons leave a light mostly where earlier ones have mattered: the three numbers that a photon's direction is made of
 // (emission.h: target and place in it) are drawn from a histogram over [0, 1)^3 instead of evenly, and the photon
 // counts as much less as it comes more often (importance sampling in the space of random numbers, as in Lepage 1978, "A
-// new algorithm for adaptive multidimensional integration"). app/spectral/effort/emitters.h says how the histogram is
+// new algorithm for adaptive multidimensional integration"). app/photons/effort/emitters.h says how the histogram is
 // learned.
 #ifndef NEPHROID_GUIDE_H
 #define NEPHROID_GUIDE_H

@@ -54,8 +54,8 @@ typedef struct {
   float wavelength; // in [0, 1): which of its cluster
 } PhotonStart;
 
-// Photon `photon` of a pass. first_iteration: from which on photons are allocated to the emitters as they are
-// (DeviceEmitter::sequence_start is for it).
+// Photon `photon` of a batch or a pass, which `iteration` counts. first_iteration: from which on photons are allocated to
+// the emitters as they are (DeviceEmitter::sequence_start is for it).
 // Low discrepancy: the photons of a light that go to one half of the film follow one sequence, pass after pass, so that
 // those of all clusters together are spread evenly; its fourth number says which cluster and which wavelength in it.
 // That number has 32 bits, of which the choice of the cluster takes up to 24: plain random bits below them make the

@@ -21,7 +21,7 @@
 #endif
 
 // The square of a contribution to the film in linear sRGB, in quanta of 2^12 of the film's squared, at most 2^40. The
-// sum over an emitter's photons says how many of all photons it should have (app/spectral/effort/emitters.h).
+// sum over an emitter's photons says how many of all photons it should have (app/photons/effort/emitters.h).
 static inline long squared(float3 xyz, float scale)
 {
   const float3 q = xyz * (scale * 0x1p-6f);

@@ -4,7 +4,8 @@
 #ifndef NEPHROID_FILM_H
 #define NEPHROID_FILM_H
 
-// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3]. Passes take turns.
+// A film has one image or, for an estimate of its error, two independent halves: [half][pixel][3]. Passes take
+// turns; where photons are splatted, the rounds of passes do, of which `pass` is then the number.
 #ifndef NEPHROID_FILM_HALVES
 #define NEPHROID_FILM_HALVES 2
 #endif

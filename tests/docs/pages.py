@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Is every page to use short, does every link lead somewhere, and is every picture used?
+"""Is every page to use short, does every link lead somewhere, is every picture used, and do all files give one version?
 
     tests/docs/pages.py
 
@@ -27,9 +27,22 @@ def anchors(file):
     return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
 
 
+VERSIONS = {"pyproject.toml": r'^version = "(.+?)"', "CITATION.cff": r"^version: (.+)", "packaging/changelog": r"^nephroid \((.+?)\)",
+            "packaging/org.nephroid.Nephroid.metainfo.xml": r'<release version="(.+?)"'}
+
+
+def other_versions():
+    """Files whose newest version is not that of CMakeLists.txt."""
+    own = re.search(r"project\(nephroid VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
+    for name, pattern in VERSIONS.items():
+        found = re.search(pattern, (ROOT / name).read_text(encoding="utf-8"), re.M)
+        if not found or found[1] != own:
+            yield f"{name}: has the version {found[1] if found else 'of none'}; expected {own}, as CMakeLists.txt"
+
+
 def main():
     pages = [*sorted(ROOT.glob("*.md")), *sorted(DOCS.rglob("*.md"))]
-    failures, used, links = [], set(), 0
+    failures, used, links = list(other_versions()), set(), 0
     for page in pages:
         name, text = page.relative_to(ROOT), page.read_text(encoding="utf-8")
         words = len(text.split())

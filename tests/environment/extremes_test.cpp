@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extreme skies, lamps, objects and receivers of engine 2. docs/notebook/extremes.md has the table.
+// Extreme skies, lamps, objects and receivers of engine 2. docs/notebook/extremes.md sums it up.
 #include "tests/support/extremes.h"
 
 #include "environment/checks.h"

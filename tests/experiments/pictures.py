@@ -1,64 +1,194 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the pictures of docs/README.md, docs/thesis.md and docs/notebook/smoothing.md again; ImageMagick puts them side
-by side.
+"""Makes the pictures of the docs again: one command for all of them.
 
-    tests/experiments/pictures.py PROGRAM OUT     writes OUT/gallery.jpg, OUT/thesis-scenes.jpg and OUT/smoothing.jpg
+    tests/experiments/pictures.py PROGRAM [--docs FOLDER] [--work FOLDER] [--small] [NAME...]
+
+PROGRAM is build/PRESET/bin/nephroid. NAME is a part of a picture's path below docs/ (`gallery`, `tours/`, `window-`); without one, all that this
+machine can make, an hour and more. What a picture needs beside the program, and what lacks here, is said.
+
+--docs: where they go, the project's docs/ unless said. --work: keeps runs, so that one that was made is not made again.
+--small: every step with tiny pictures, of which none is kept. tests/docs does that with some of them. It also fails where a picture of the docs is
+made by nothing here, so that none grows old unseen.
+
+ImageMagick puts pictures side by side; pictures of the window are taken under Xvfb. Look at each before you commit it.
 """
+import argparse
+import os
+import shutil
 import subprocess
 import sys
+import tempfile
+from functools import partial
 from pathlib import Path
 
+from studio import ROOT, Studio
 from thesis import BRUTE, OURS, PLAIN, THESIS, Experiments
+from tours import TOURS
 
 SIZE = 256
 SCENES = ["bunny", "bunny-arbitrary-2", "diamond-arbitrary-1", "enclosed-bunny", "cylinders", "newton", "prism-f10"]
-GALLERY = ["first-light", "spectral/brilliant", "spectral/ball-lens", "spectral/glass-in-a-room", "spectral/prism",
-           "spectral/thesis/newton",
-           "spectral/thesis/cylinders", "spectral/thesis/diamond-arbitrary-1", "spectral/thesis/enclosed-bunny",
-           "spectral/thesis/bunny-arbitrary-2",
+GALLERY = ["first-light", "spectral/brilliant", "spectral/ball-lens", "spectral/glass-in-a-room", "spectral/prism", "spectral/thesis/newton",
+           "spectral/thesis/cylinders", "spectral/thesis/diamond-arbitrary-1", "spectral/thesis/enclosed-bunny", "spectral/thesis/bunny-arbitrary-2",
            "extremes/laser-beside-lamp", "extremes/nested-eight"]
 OTHERS = ["staircase", "rhodamine-6G", "rhodamine-6G-absorption", "F8BT", "F8BT-absorption"]
+RAINBOW = ["spectral.photons_per_pass=1048576"]
+PEERS = {"ball": ["mitsuba-ptracer", "luxcore-bidirectional", "pov-ray-photons"], "bunny": ["mitsuba-ptracer", "luxcore-bidirectional", "pov-ray-photons"],
+         "sky": ["mitsuba-path", "luxcore-path"], "room": ["mitsuba-path", "luxcore-path", "pov-ray-radiosity"]}
+SIDE = {"geometry": f"{SIZE}x{SIZE}"}
 
 
-def side_by_side(folders, columns, gap, target, *options):
-    subprocess.run(["montage", *(str(folder / "image.png") for folder in folders), "-tile", f"{columns}x", "-geometry",
-                    f"{SIZE}x{SIZE}+{gap}+{gap}",
-                    "-background", "black", *options, str(target)], check=True)
-    print(target)
+def first_light(s, name):
+    s.keep(name, [s.render("first-light", "first-light")])
 
 
-def gallery(e, out):
+def gallery(s, name):
     """Shipped presets as they come, after 20 seconds."""
-    folders = [e.out / "gallery" / name.replace("/", "-") for name in GALLERY]
-    for name, folder in zip(GALLERY, folders):
-        subprocess.run([e.program, "run", name, "--seconds", "20", "-o", str(folder)], check=True, capture_output=True)
-    side_by_side(folders, 4, 1, out / "gallery.jpg", "-quality", "88")
+    s.keep(name, [s.render("gallery-" + preset.replace("/", "-"), preset, seconds=20) for preset in GALLERY], 4, 1, **SIDE)
 
 
-def scenes(e, out):
+def thesis_scenes(s, name):
     """Whole pictures, splats."""
-    whole = {"estimator": "splat", "photons_per_pass": 1 << 18, "direct": True}
-    e.size = SIZE
-    folders = [e.run(f"scenes/{name}", f"spectral/thesis/{name}", whole, 64 if name == "bunny" else 24)[2]
-               for name in SCENES]
-    e.size = None
-    folders += [e.run(f"scenes/{name}", f"spectral/{name}", whole, 24)[2] for name in OTHERS]
-    side_by_side(folders, 4, 0, out / "thesis-scenes.jpg", "-quality", "88")
+    splats = ["sweep=null", "spectral.estimator=splat", "spectral.photons_per_pass=262144", "spectral.direct=true"]
+    pictures = [s.render(f"scene-{scene}", f"spectral/thesis/{scene}", *splats, size=(SIZE, SIZE), passes=64 if scene == "bunny" else 24) for scene in SCENES]
+    pictures += [s.render(f"scene-{scene}", f"spectral/{scene}", *splats, passes=24) for scene in OTHERS]
+    s.keep(name, pictures, 4, 0, **SIDE)
 
 
-def smoothing(e, out):
+def smoothing(s, name):
     """Caustics of the bunny after 8 seconds of each way, and after 120 passes."""
+    e = Experiments(s.program, s.folder)
     e.size = SIZE
     variants = [BRUTE, THESIS, PLAIN, OURS]
-    folders = [e.run(f"smoothing/{index}", "spectral/thesis/bunny", spectral, seconds=8)[2] for index,
-               spectral in enumerate(variants)]
+    folders = [e.run(f"smoothing/{index}", "spectral/thesis/bunny", spectral, seconds=8)[2] for index, spectral in enumerate(variants)]
     folders.append(e.run("smoothing/long", "spectral/thesis/bunny", PLAIN, 120)[2])
-    side_by_side(folders, 5, 1, out / "smoothing.jpg", "-quality", "85")
+    s.keep(name, [folder / "image.png" for folder in folders], 5, 1, quality=85, **SIDE)
+
+
+def grazing_rainbow(s, name):
+    """401 lines, 32 clusters, the same clusters stretched: as many photons each."""
+    ways = {"lines": ["spectral.method=brute_force", "spectral.differentials=false"], "clusters": ["spectral.jitter=false", "spectral.differentials=false"],
+            "stretched": ["spectral.differentials=true"]}
+    s.keep(name, [s.render(f"rainbow-{way}", "spectral/grazing-rainbow", *RAINBOW, *sets, size=(768, 48), passes=16) for way, sets in ways.items()], 1, 1)
+
+
+def inverse_glass(s, name):
+    s.keep(name, [s.render("shapes-as-glass", str(s.run("shapes", "inverse/shapes") / "view.json"), size=(1005, 600), seconds=120)])
+
+
+def inverse_sets(s, name):
+    s.script("inverse.py", s.folder / "inverse", "pictures")
+    s.keep(name, [s.folder / "inverse" / "inverse-sets.jpg"])
+
+
+def environment_shaded(s, name):
+    s.script("environment.py", s.folder / "environment", "scenes", "--presets", "shaded-bunny")
+    s.keep(name, [s.folder / "environment" / "shaded-bunny-sheet.png"])
+
+
+def environment_film(s, name, film):
+    s.script("environment_films.py", s.folder / "films", film)
+    s.keep(name, [s.folder / "films" / f"{film}-sheet.png"])
+
+
+def medium(s, name):
+    s.call(tests_of(s, "environment"), "--gtest_filter=*Rayleigh*", env=os.environ | {"NEPHROID_VOLUME_PICTURES": str(s.folder)})
+    s.keep(name, sorted(s.folder.glob("*ayleigh*.png"))[:1])
+
+
+def python_spectral(s, name):
+    module = Path(s.program).parents[1] / "python"
+    s.call(sys.executable, ROOT / "python" / "examples" / "spectral.py", env=os.environ | {"PYTHONPATH": str(module), "MPLBACKEND": "agg"})
+    s.keep(name, [s.folder / "spectral-pictures.png"])
+
+
+def first_pictures(s, name):
+    s.script("after_edits.py", s.folder / "edits", Path(s.program).parents[1] / "tests" / "bench" / "nephroid_after_edit")
+    s.keep(name, [s.folder / "edits" / "strip-first-light-camera.jpg"])
+
+
+def export_blender(s, name):
+    s.script("blender.py", s.folder / "blender", "first-light")
+    s.keep(name, [s.folder / "blender" / "first-light" / "both.png"], widest=1024)
+
+
+def peers(s, name):
+    s.script("peers.py", s.folder / "peers", *PEERS)
+    made = s.folder / "peers"
+    s.keep(name, [made / scene / f"{way}-3.png" if way else "null:" for scene, ways in PEERS.items() for way in ["nephroid", *ways, *[""] * (3 - len(ways))]], 4,
+           **SIDE)
+
+
+def tests_of(s, group):
+    return Path(s.program).parents[1] / "tests" / group / f"{group}_tests"
+
+
+def by_window_tests(s, name):
+    """Tests that move the mouse write their pictures, and the table of keys, into the docs themselves."""
+    test = "*Session.From*" if name.startswith("session-") else "PanelPictures.*:GizmoWindowTest.*"
+    done = s.folder / test.replace("*", "").replace(":", "")
+    if not done.exists():
+        s.call(tests_of(s, "ui"), f"--gtest_filter={test}", env=os.environ | {"NEPHROID_PICTURES": str(s.docs)})
+        done.touch()
+    print(f"{name}: {(s.docs / name).stat().st_size} bytes", flush=True)
+
+
+def by_tour(s, name, make):
+    pictures, columns = make(s)
+    s.keep(name, pictures, columns, widest=640, quality=85)
+
+
+WINDOW = ["annealing-facet", "compared", "dispersion-dragged", "dispersion", "environment", "handles", "parameters", "spectra-relit", "spectra"]
+MAKERS = {"first-light.png": first_light, "grazing-rainbow.png": grazing_rainbow, "inverse-glass.png": inverse_glass, "gallery.jpg": gallery,
+          "thesis-scenes.jpg": thesis_scenes, "smoothing.jpg": smoothing, "inverse-sets.jpg": inverse_sets, "environment-shaded.png": environment_shaded,
+          "environment-turning.png": partial(environment_film, film="turning"), "environment-card.png": partial(environment_film, film="card"),
+          "medium.png": medium, "python-spectral.png": python_spectral, "first-pictures.jpg": first_pictures, "export-blender.jpg": export_blender,
+          "peers.jpg": peers}
+MAKERS |= {f"tours/{make.__name__.replace('_', '-')}.jpg": partial(by_tour, make=make) for make in TOURS}
+MAKERS |= {f"session-{engine}.jpg": by_window_tests for engine in ("spectral", "environment", "inverse")}
+MAKERS |= {f"window-{panel}.png": by_window_tests for panel in WINDOW}
+# What a picture needs beside the program and ImageMagick: other programs, modules of Python, and what is built.
+NEEDS = {"export-blender.jpg": ["blender"], "peers.jpg": ["povray"]}
+
+
+def lacks(name, small):
+    programs = NEEDS.get(name, []) + ([] if small else ["montage", "convert"])
+    if "window" in name or name.startswith("session-") or name == "tours/option-plan.jpg":
+        programs += ["xvfb-run"]
+    return [program for program in programs if not shutil.which(program)]
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("program")
+    arguments.add_argument("names", nargs="*", metavar="NAME")
+    arguments.add_argument("--docs", type=Path, default=ROOT / "docs")
+    arguments.add_argument("--work", type=Path)
+    arguments.add_argument("--small", action="store_true")
+    chosen = arguments.parse_intermixed_args()
+    shown = {str(file.relative_to(ROOT / "docs")) for file in (ROOT / "docs").rglob("*") if file.suffix in (".png", ".jpg")}
+    if shown != set(MAKERS):
+        sys.exit(f"pictures of the docs that nothing makes, or that are made and not there: {', '.join(sorted(shown ^ set(MAKERS)))}")
+    failed = []
+    names = [name for name in MAKERS if not chosen.names or any(part in name for part in chosen.names)]
+    if not names:
+        sys.exit(f"no picture is called so; there are: {' '.join(MAKERS)}")
+    with tempfile.TemporaryDirectory(prefix="nephroid-pictures-") as scratch:
+        folder = chosen.work or Path(scratch)
+        folder.mkdir(parents=True, exist_ok=True)
+        studio = Studio(chosen.program, folder.resolve(), chosen.docs.resolve(), chosen.small)
+        for name in names:
+            if missing := lacks(name, chosen.small):
+                print(f"{name}: left out: there is no {' and no '.join(missing)}", flush=True)
+            else:
+                try:
+                    MAKERS[name](studio, name)
+                except (subprocess.CalledProcessError, OSError) as failure:
+                    failed.append(name)
+                    print(f"{name}: {failure}", flush=True)
+    print(f"{len(names)} of {len(MAKERS)} pictures were to be made; {len(failed)} failed")
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3 or not Path(sys.argv[1]).is_file():
-        sys.exit("usage: pictures.py PROGRAM OUT, PROGRAM being the program, as build/release/bin/nephroid")
-    for make in (gallery, scenes, smoothing):
-        make(Experiments(sys.argv[1], sys.argv[2]), Path(sys.argv[2]))
+    sys.exit(main())

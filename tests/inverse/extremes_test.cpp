@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Extreme objects, lights and receivers of engine 3. docs/notebook/extremes.md has the table.
+// Extreme objects, lights and receivers of engine 3. docs/notebook/extremes.md sums it up.
 #include "inverse/engine.h"
 #include "tests/support/extremes.h"
 

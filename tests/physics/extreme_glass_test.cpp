@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme materials: indices of refraction at and around 1 and far from it, curves with steps and poles, absorption without end, nested and
-// total reflection. docs/notebook/extremes.md has the table.
+// total reflection. docs/notebook/extremes.md sums it up.
 #include "optics/fresnel.h"
 #include "photons/clusters/clusters.h"
 #include "tests/support/extremes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme lights and mirrors: powers from 1e-30 W, beams of 0.01 degrees, lights in glass and on it, rectangles of every size, reflectances
-// of 0 and 1. docs/notebook/extremes.md has the table.
+// of 0 and 1. docs/notebook/extremes.md sums it up.
 #include "spectral/settings.h"
 #include "tests/support/extremes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme places and shapes: scenes of any size, far from the origin, tiny objects beside large ones, thin plates, needles, meshes that are
-// open, doubled, inside out or inside each other. docs/notebook/extremes.md has the table.
+// open, doubled, inside out or inside each other. docs/notebook/extremes.md sums it up.
 #include "optics/fresnel.h"
 #include "spectral/settings.h"
 #include "tests/support/extremes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme surroundings: backgrounds from 1e-30 to 1e9 and with one bright texel, bad texels, walls that reflect nothing, nearly all and
-// all, glass that absorbs all, single pixels and photons. docs/notebook/extremes.md has the table.
+// all, glass that absorbs all, single pixels and photons. docs/notebook/extremes.md sums it up.
 #include "image/image.h"
 #include "spectral/settings.h"
 #include "tests/support/extreme_waves.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme views and settings: counts of one and far too many, pictures of one pixel and of 1 x 4096, telescopes, cameras in glass, in a
-// mirror, in a surface and close to it, any white. docs/notebook/extremes.md has the table.
+// mirror, in a surface and close to it, any white. docs/notebook/extremes.md sums it up.
 #include "spectral/settings.h"
 #include "tests/support/extreme_waves.h"
 
@@ -166,7 +166,7 @@ TEST_P(Views, AreRight) { expect_right(GetParam()); }
 INSTANTIATE_TEST_SUITE_P(Extremes, Views, testing::ValuesIn(extremes), [](const auto& tested) { return tested.param.name; });
 
 // Extreme settings of photon maps: radii from a millionth of a pixel to 10^9 scenes, alpha next to 0 and to 1, single photons, single
-// pixels. docs/notebook/extremes.md has the table.
+// pixels. docs/notebook/extremes.md sums it up.
 
 /// Splats, which have no radius.
 const std::vector<Estimate>& truth()

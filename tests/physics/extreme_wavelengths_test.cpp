@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme ways to deal with wavelengths: one cluster and 401, efforts that have nothing to choose from, curves that jump at every
 // nanometre, photons one at a time and lights by the thousand, streaks at grazing incidence and beside total reflection, layers for any
-// light. docs/notebook/extremes.md has the table.
+// light. docs/notebook/extremes.md sums it up.
 #include "photons/clusters/clusters.h"
 #include "spectral/settings.h"
 #include "tests/support/extreme_waves.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Extreme cases as rows of a table: what is extreme, what came out, what is right and how that is known. Where the environment variable
-// NEPHROID_EXTREMES_TABLE names a file, every case appends its row to it: docs/notebook/extremes.md is made of these.
+// NEPHROID_EXTREMES_TABLE names a file, every case appends its row to it: docs/notebook/extremes.md sums them up.
 #pragma once
 #include "preset/read.h"
 #include "spectral/settings.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs that were kept to hold others against: their history and, where there is one, their picture. And pictures that were opened, of
-// whatever program. They stay while the window is open, whatever becomes of the run in hand.
+// Pinned runs, which others are compared with: their history and, where there is one, their picture. An opened picture, of whatever
+// program, is pinned too. All stay whatever becomes of the run in hand; the session brings them back after the window was closed.
 #pragma once
 #include "job/job.h"
 
@@ -31,7 +31,7 @@ struct PinnedRun {
 class PinnedRuns {
 public:
   const std::vector<PinnedRun>& all() const { return runs_; }
-  /// Those that are no pictures that were opened.
+  /// All but the opened pictures.
   std::vector<PinnedRun> runs() const;
   /// Null where there is none of this id.
   const PinnedRun* find(std::uint64_t id) const;
@@ -55,8 +55,8 @@ bool is_history(const std::filesystem::path& path);
 /// Whether this names a picture, by its ending.
 bool is_picture(const std::filesystem::path& path);
 /// A picture, named after its file; or an earlier run by its history.csv or its folder; named after the folder. Its image.exr and, for the
-/// noise floor, its run.json are read where they lie beside. Throws bad_input as measure::read_history, read_run_reference and open_picture
-/// do, and for what is neither.
+/// noise floor, its run.json are read where they lie beside. Throws bad_input as measure::read_history, measure::read_run_history and
+/// open_picture do, and for what is neither.
 PinnedRun read_pin(const std::filesystem::path& path);
 
 } // namespace nephroid::ui

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photons of a pass are allocated to emitters, pairs of a light and a wavelength cluster, and leave lights in directions where they matter. No
-// OpenCL here.
+// Photons of a round are allocated to emitters, pairs of a light and a wavelength cluster, and leave lights in directions where they matter.
+// What is called a pass here is a round of those photons, of which a pass of the run has several (RunTables::batches). No OpenCL here.
 #pragma once
 #include "kernels/tracing/shared_types.h"
 #include "tracing/state.h"
