@@ -28,9 +28,7 @@ void show_pictures(const PicturesOptions& options)
 {
   const preset::Preset preset = preset::read_preset(options.preset, options.overrides);
   const InversePlan plan = preset::at_origins(preset, [&] {
-    if (engine::engine_of(preset).settings != inverse::engine.settings)
-      throw bad_input(Place(preset.source, "/engine"),
-                      fmt::format("is '{}', which casts no pictures", engine::name_of(engine::engine_of(preset))), "expected 'inverse'");
+    engine::require_engine(preset, inverse::engine, "casts no pictures");
     return make_plan(preset);
   });
   std::vector<std::vector<Captioned>> columns;
