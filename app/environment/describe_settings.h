@@ -22,14 +22,8 @@ template <>
 inline constexpr Choice<environment::Technique> choices<environment::Technique>[] = {
     {environment::Technique::eight_sets, "eight_sets",
      "Sets of spheres are looked up eight at a time, with the way that their light goes."},
-    {environment::Technique::direct, "direct", "The thesis': one set after the other, all from one buffer in one launch."},
-    {environment::Technique::direct_launches, "direct_launches", "The same with a launch for each light."},
-    {environment::Technique::direct_buffers, "direct_buffers",
-     "The same with a launch for each light, and a buffer for each baked direction."},
-    {environment::Technique::compiled, "compiled", "The thesis': all sets are added up into one (Algorithm 3.5), and that is looked up."},
-    {environment::Technique::compiled_launches, "compiled_launches", "The same with a launch for each light."},
-    {environment::Technique::compiled_buffers, "compiled_buffers",
-     "The same with a launch for each light, and a buffer for each baked direction."}};
+    {environment::Technique::direct, "direct", "The thesis': one set after the other."},
+    {environment::Technique::compiled, "compiled", "The thesis': all sets are added up into one (Algorithm 3.5), and that is looked up."}};
 
 template <>
 inline constexpr Choice<environment::Settings::Phase> choices<environment::Settings::Phase>[] = {

@@ -1,35 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Caustics on receivers in the ways that the thesis compares (3.4, table 3.3): one set of spheres after the other, in a launch for all of
-// them or for those of each light, from a buffer for all baked directions or for each. `cast` looks all sets up for each receiver;
-// `compile` adds them up into one set first (Algorithm 3.5), and `cast_compiled` looks that up. All light comes from the object's middle.
-// NEPHROID_DIRECTION_BUFFERS: a launch has the up to four sets of one light, and their directions' buffers.
+// Caustics on receivers in the two ways that the thesis compares (3.4, table 3.3), one set of spheres after the other: `cast` looks all sets
+// up for each receiver; `compile` adds them up into one set first (Algorithm 3.5), and `cast_compiled` looks that up. All light comes from
+// the object's middle.
 #include "kernels/environment/cube.h"
 #include "kernels/environment/spheres.h"
 
-#if NEPHROID_DIRECTION_BUFFERS
-#define SETS                                                                                                                       \
-  __global const ushort *stored_0, __global const ushort *stored_1, __global const ushort *stored_2, __global const ushort *stored_3, \
-      __global const DeviceEightSets *sets, int first_set, int set_count
-#define THE_SETS stored_0, stored_1, stored_2, stored_3, sets, first_set, set_count
-#else
-#define SETS __global const ushort* stored, __global const DeviceEightSets* sets, int first_set, int set_count
-#define THE_SETS stored, sets, first_set, set_count
-#endif
+#define SETS __global const ushort* stored, __global const DeviceEightSets* sets, int set_count
 
-// E r^2 on a sphere, of the sets first_set .. first_set + set_count - 1.
+// E r^2 on a sphere, of all sets.
 static inline float3 caustic_one_by_one(SETS, const DeviceSpheres* spheres, float3 direction, Shell shell)
 {
   float3 sum = (float3)(0.0f);
   for (int i = 0; i < set_count; ++i) {
-    __global const DeviceEightSets* eight = sets + (first_set + i) / 8;
-    const int k = (first_set + i) % 8;
-#if NEPHROID_DIRECTION_BUFFERS
-    __global const ushort* set_spheres = i == 0 ? stored_0 : i == 1 ? stored_1 : i == 2 ? stored_2 : stored_3;
-#else
-    __global const ushort* set_spheres = stored + NEPHROID_CHANNELS * eight->first[k];
-#endif
+    __global const DeviceEightSets* eight = sets + i / 8;
+    const int k = i % 8;
     const FourTexels four = four_texels(in_set(eight, k, direction), spheres->side);
-    sum += flux_of_set(eight, k) * stored_between_spheres(set_spheres, spheres, &four, shell);
+    sum += flux_of_set(eight, k) * stored_between_spheres(stored + NEPHROID_CHANNELS * eight->first[k], spheres, &four, shell);
   }
   return spheres->scale * sum;
 }
@@ -40,8 +26,8 @@ static inline float from_middle(__global const float* radii, float distance, flo
   return held(radii, distance) * fmax(-dot(normal, direction), 0.0f);
 }
 
-// anew: 1 in the first launch, 0: what is there is added to. The rest is as in cast.cl.
-__kernel void cast(SETS, int anew, __global const float* radii, DeviceSpheres spheres, __global const uint* list, uint first, uint count, int size,
+// Arguments are as in cast.cl.
+__kernel void cast(SETS, __global const float* radii, DeviceSpheres spheres, __global const uint* list, uint first, uint count, int size,
                    __global const float* distances, __global const float4* normals, __global float* caustics)
 {
   const uint index = (uint)get_global_id(0);
@@ -52,13 +38,13 @@ __kernel void cast(SETS, int anew, __global const float* radii, DeviceSpheres sp
   if (distance < INFINITY) {
     const float3 direction = cube_texel_direction(texel, size);
     caustic = from_middle(radii, distance, direction, normals[texel].xyz) *
-              caustic_one_by_one(THE_SETS, &spheres, direction, shell_at(radii, spheres.count, distance));
+              caustic_one_by_one(stored, sets, set_count, &spheres, direction, shell_at(radii, spheres.count, distance));
   }
-  vstore3(anew ? caustic : caustic + vload3((size_t)texel, caustics), (size_t)texel, caustics);
+  vstore3(caustic, (size_t)texel, caustics);
 }
 
 // Of all texels of all spheres in their stored form, in coordinates of the object, whose axes in the scene are object_x, y, z.
-__kernel void compile(SETS, int anew, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y, float4 object_z,
+__kernel void compile(SETS, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y, float4 object_z,
                       uint count, __global float* compiled)
 {
   const uint item = (uint)get_global_id(0);
@@ -66,8 +52,8 @@ __kernel void compile(SETS, int anew, __global const float* radii, DeviceSpheres
   const uint texels = (uint)((spheres.side + 2) * (spheres.side + 2));
   const float3 d = sphere_direction(texel_of_stored((int)(item % texels), spheres.side), spheres.side);
   const float3 direction = d.x * object_x.xyz + d.y * object_y.xyz + d.z * object_z.xyz;
-  const float3 caustic = caustic_one_by_one(THE_SETS, &spheres, direction, shell_at(radii, spheres.count, radii[item / texels]));
-  vstore3(anew ? caustic : caustic + vload3((size_t)item, compiled), (size_t)item, compiled);
+  const float3 caustic = caustic_one_by_one(stored, sets, set_count, &spheres, direction, shell_at(radii, spheres.count, radii[item / texels]));
+  vstore3(caustic, (size_t)item, compiled);
 }
 
 __kernel void cast_compiled(__global const float* compiled, __global const float* radii, DeviceSpheres spheres, float4 object_x, float4 object_y,

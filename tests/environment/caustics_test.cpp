@@ -283,8 +283,8 @@ Off off(const std::vector<glm::dvec3>& found, const std::vector<glm::dvec3>& exp
   return {o.most * count / sum, std::sqrt(squares / count) * count / sum};
 }
 
-// Light that comes from the middle, by all techniques of table 3.3. Where lights are added up first, texels of the sum are between those of
-// the sets: two straight lines in a row. Seen at an angle, and beyond the spheres and nearer than they are.
+// Light that comes from the middle, by both techniques of table 3.3. Where lights are added up first, texels of the sum are between those
+// of the sets: two straight lines in a row. Seen at an angle, and beyond the spheres and nearer than they are.
 TEST(Caustics, AreTheSameByTheThesisTechniques)
 {
   for (const int channels : {1, 3}) {
@@ -302,17 +302,13 @@ TEST(Caustics, AreTheSameByTheThesisTechniques)
     };
     for (const double distance : {0.5, 1.0, 1.6, 7.0}) {
       const std::vector<glm::dvec3> expected = found(Technique::eight_sets, lights, distance);
-      for (const Technique direct : {Technique::direct, Technique::direct_launches, Technique::direct_buffers})
-        EXPECT_LT(off(found(direct, lights, distance), expected).most, 1e-4) << static_cast<int>(direct) << " " << distance;
-      const std::vector<glm::dvec3> compiled = found(Technique::compiled, lights, distance);
-      const Off o = off(compiled, expected);
+      EXPECT_LT(off(found(Technique::direct, lights, distance), expected).most, 1e-4) << distance;
+      const Off o = off(found(Technique::compiled, lights, distance), expected);
       fmt::print("distance {}: compiled is {:.3f} % off, {:.3f} % at most\n", distance, 100 * o.mean, 100 * o.most);
       EXPECT_LT(o.mean, 0.003);
       EXPECT_LT(o.most, 0.02);
-      for (const Technique other : {Technique::compiled_launches, Technique::compiled_buffers})
-        EXPECT_LT(off(found(other, lights, distance), compiled).most, 1e-5) << static_cast<int>(other) << " " << distance;
     }
-    for (const Technique technique : {Technique::direct_buffers, Technique::compiled_launches})
+    for (const Technique technique : {Technique::direct, Technique::compiled})
       EXPECT_EQ(found(technique, {}, 1), std::vector<glm::dvec3>(6UL * 32 * 32, glm::dvec3(0)));
   }
 }

@@ -147,7 +147,7 @@ def histogram(bench, preset):
 
 
 LAMP = {"type": "directional", "direction": [0.3, -1, 0.2], "irradiance_w_m2": 3}
-TECHNIQUES = ["direct_buffers", "compiled_buffers", "direct_launches", "compiled_launches", "direct", "compiled", "eight_sets"]
+TECHNIQUES = ["direct", "compiled", "eight_sets"]
 
 
 def techniques(bench, preset):
@@ -168,7 +168,7 @@ def techniques(bench, preset):
         for s in (8, 16, 32):
             row(str(q), [s, *(milliseconds(technique, q, s) for technique in TECHNIQUES)])
     head(f"rate against q: {preset}, 512 x 512, s = 16, milliseconds", [str(q) for q in range(8, 65, 8)])
-    for technique in ("compiled_buffers", "direct", "eight_sets"):
+    for technique in TECHNIQUES:
         row(technique, [milliseconds(technique, q, 16) for q in range(8, 65, 8)])
 
 

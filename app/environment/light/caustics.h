@@ -37,39 +37,31 @@ struct TurnedSpheres {
   const compute::Buffer<std::uint16_t>& stored;
   const compute::Buffer<float>& radii;
   const compute::Buffer<shared::DeviceEightSets>& sets;
+  int set_count;
   shared::DeviceSpheres spheres;
   shared::float4 object_x, object_y, object_z; ///< the object's axes in the scene
 };
 
-/// Caustics on receivers, put together set after set in the ways that the thesis compares (table 3.3): kernels/environment/one_by_one.cl.
+/// Caustics on receivers, put together set after set in the two ways that the thesis compares (table 3.3):
+/// kernels/environment/one_by_one.cl.
 class OneByOne {
 public:
-  /// stored: spheres of all baked directions in their stored form, direction after direction. Throws failed where the device has not enough
-  /// memory.
-  OneByOne(Technique technique, const std::vector<std::uint16_t>& stored, std::size_t directions, std::size_t channels,
-           const compute::Context& context);
+  /// texels: in their stored form, of all spheres of one direction. Throws failed where the device has not enough memory.
+  OneByOne(Technique technique, std::size_t texels, std::size_t channels, const compute::Context& context);
 
-  /// On the device, beside TurnedSpheres. texels: in their stored form, of all spheres of one direction.
-  static std::uint64_t bytes(Technique technique, std::size_t texels, std::size_t directions, std::size_t channels);
+  /// On the device, beside TurnedSpheres.
+  static std::uint64_t bytes(Technique technique, std::size_t texels);
 
-  /// sets: as turned.sets has them.
-  void set_lights(const TurnedSpheres& turned, const std::vector<TurnedSet>& sets);
+  void set_lights(const TurnedSpheres& turned);
   /// turned: as set_lights had it.
   void cast(const TurnedSpheres& turned, const CastTexels& texels);
 
 private:
-  struct Launch {
-    int first_set = 0;
-    std::vector<int> directions; ///< of its sets
-  };
-  /// As many as it takes for all sets. own: further arguments.
+  /// own: further arguments.
   void run(compute::Kernel& kernel, std::uint32_t items, const TurnedSpheres& turned, const std::vector<compute::Argument>& own);
 
-  Technique technique_;
   compute::Context context_;
-  std::vector<compute::Buffer<std::uint16_t>> direction_spheres_; ///< [direction], or all in TurnedSpheres::stored
-  compute::Buffer<float> compiled_;                          ///< [sphere][texel of the stored form][3]
-  std::vector<Launch> launches_;
+  std::optional<compute::Buffer<float>> compiled_; ///< [sphere][texel of the stored form][3]; where sets are compiled
   compute::Kernel cast_, compile_, cast_compiled_;
 };
 
@@ -117,7 +109,7 @@ private:
   compute::Buffer<float> radii_;
   Air air_;
   compute::Buffer<shared::DeviceEightSets> sets_;
-  int used_eights_ = 0; ///< of the buffer's
+  int used_sets_ = 0; ///< of the buffer's
   double seconds_ = 0;
   compute::Kernel cast_, compile_air_;
   std::optional<OneByOne> one_by_one_; ///< by the thesis' techniques

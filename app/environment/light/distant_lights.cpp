@@ -93,12 +93,12 @@ std::vector<TurnedSet> turned_sets(const std::vector<DistantLight>& lights, cons
   const glm::dmat3 to_object = glm::transpose(rotation);
   const std::vector<glm::dvec3> baked = light_directions(count);
   std::vector<TurnedSet> sets;
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (lights[i].irradiance == glm::dvec3(0)) continue;
-    const glm::dvec3 travel = to_object * lights[i].direction;
+  for (const DistantLight& light : lights) {
+    if (light.irradiance == glm::dvec3(0)) continue;
+    const glm::dvec3 travel = to_object * light.direction;
     for (const NearDirection& near : near_directions(travel, count)) {
       const glm::dmat3 to_bake = glm::transpose(shortest_turn(baked[static_cast<std::size_t>(near.direction)], travel)) * to_object;
-      sets.push_back({to_bake, near.weight * lights[i].irradiance, near.direction, i});
+      sets.push_back({to_bake, near.weight * light.irradiance, near.direction});
     }
   }
   return sets;

@@ -33,7 +33,6 @@ struct TurnedSet {
   glm::dmat3 to_bake{1}; ///< from the scene into the coordinates of that direction's spheres
   glm::dvec3 flux{0};    ///< linear sRGB: the light's irradiance on a plane that faces it, times the direction's weight
   int direction = 0;     ///< of the bake
-  std::size_t light = 0; ///< whose it is, in the list of lights
 };
 
 struct NearDirection {
