@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
+#include "base/hashed_bytes.h"
 #include "environment/bake/baking.h"
 #include "environment/engine.h"
 #include "environment/photons.h"
+#include "environment/segment/cube.h"
 #include "environment/sheet.h"
 #include "environment/view/scene_view.h"
 

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace nephroid::photons {
@@ -22,10 +23,12 @@ public:
   }
 
   job::Picture picture();
-  /// A black picture without layers, with room for a draw of its error where films have halves.
-  job::Picture black() const { return black(whole_pixels()); }
+  /// Allocates the work of the next passes out by how much each stage lowers the picture's noise: the sum of the variances V_s of what takes
+  /// the work w_s a pass, V_s w_s being as it is, is smallest where all V_s / w_s are alike. Work is counted, not timed, so that a seed has
+  /// its bits. The square of a pixel's noise is over that of its light, as in the metric rel_mse.
+  void share_work();
 
-  BlockSmoothing* smoothing() { return smoothing_ ? &*smoothing_ : nullptr; }
+  bool smooths() const { return smoothing_.has_value(); }
   /// Looks through all pixels before a picture waits for it.
   void prepare();
   /// Of all pictures since the program began; no work of the run's.
@@ -36,8 +39,9 @@ public:
   void smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate);
 
 private:
-  Blocks whole_pixels() const { return {world_.tables.camera.width, world_.tables.camera.height, 1}; }
+  /// Without layers, with room for a draw of its error where films have halves.
   job::Picture black(const Blocks& blocks) const;
+  job::Picture black() const { return black({world_.tables.camera.width, world_.tables.camera.height, 1}); }
   /// The preview of a stage's layer, smoothed, of [pixel][3].
   LayerEstimate preview_of(Stage& stage);
   /// The layer of a stage of no caustics.

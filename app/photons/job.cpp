@@ -7,7 +7,6 @@
 #include "photons/passes.h"
 #include "photons/preview.h"
 #include "photons/relight/layer_film.h"
-#include "photons/share_work.h"
 #include "photons/pixel_surfaces.h"
 
 #include <fmt/format.h>
@@ -113,7 +112,7 @@ public:
     job::Snapshot snapshot;
     snapshot.picture = std::make_shared<const job::Picture>(development_.picture());
     for (const TimedStage& s : passes_.stages()) snapshot.phases.emplace_back(s.stage->name(), s.seconds);
-    if (development_.smoothing()) snapshot.phases.emplace_back("smoothing", development_.smoothing_seconds());
+    if (development_.smooths()) snapshot.phases.emplace_back("smoothing", development_.smoothing_seconds());
     snapshot.progress = progress();
     const double batches = passes_.energy_rounds();
     Energy energy{balance_of(outcome_watts(world_.energy.read_sum(), world_.tables.energy_scale, batches)), {}};
@@ -139,7 +138,7 @@ public:
       if (!stage.add_spectrum(passes_.complete(), passes_.had_turn(s), *spectrum))
         spectrum->notes.push_back(fmt::format("Without the layer \"{}\", of which no spectrum is kept.", stage.name()));
     }
-    if (development_.smoothing()) spectrum->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
+    if (development_.smooths()) spectrum->notes.push_back("The picture's caustics are smoothed, the spectrum is not.");
     return spectrum;
   }
 
@@ -190,7 +189,7 @@ private:
     const std::int64_t passes = passes_.complete();
     if (passes == 1) development_.prepare();
     if (shares_work_ && passes >= 2 && std::has_single_bit(static_cast<std::uint64_t>(passes)))
-      passes_.work(0, [&] { share_work(world_, passes_, development_); });
+      passes_.work(0, [&] { development_.share_work(); });
   }
 
   DeviceWorld world_;     ///< the stages use it

@@ -38,27 +38,23 @@ std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& set
 
 } // namespace
 
-Caustics::Caustics(const Bake& bake, const compute::Context& context, Technique technique)
+Caustics::Caustics(const Bake& bake, const compute::Context& context)
     : context_(context), directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
                                                                                          static_cast<float>(bake.size * bake.size), 0},
       way_of_(compute::Buffer(context, "ways", all_ways())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))), sets_(context, "turned sets", 1)
 {
-  const auto channels = static_cast<std::size_t>(bake.channels);
   stored_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "caustic spheres", bake.light);
   ways_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "ways through spheres", bake.ways);
-  if (technique != Technique::eight_sets) one_by_one_.emplace(technique, bake.direction_texels(), channels, context);
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
   cast_ = program.kernel("cast");
   compile_air_ = program.kernel("compile_air");
 }
 
-std::uint64_t Caustics::bytes(const Bake& bake, Technique technique)
+std::uint64_t Caustics::bytes(const Bake& bake)
 {
-  const std::size_t texels = bake.direction_texels(), directions = bake.directions.size(),
-                    channels = static_cast<std::size_t>(bake.channels);
-  return sizeof(std::uint16_t) * directions * texels * (channels + 1) + OneByOne::bytes(technique, texels);
+  return sizeof(std::uint16_t) * bake.directions.size() * bake.direction_texels() * (static_cast<std::size_t>(bake.channels) + 1);
 }
 
 std::uint64_t Caustics::air_bytes(const Bake& bake, int side)
@@ -82,17 +78,11 @@ void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dm
         eights_of(sets, SphereMap{spheres_.side}.stored_texels() * static_cast<std::size_t>(spheres_.count));
     if (eights.size() > sets_.size()) sets_ = compute::Buffer<shared::DeviceEightSets>(context_, "turned sets", eights.size());
     if (!eights.empty()) sets_.write(eights);
-    used_sets_ = static_cast<int>(sets.size());
+    used_eights_ = static_cast<int>(eights.size());
     air_.object_x = tracing::to_float4(rotation[0]);
     air_.object_y = tracing::to_float4(rotation[1]);
     air_.object_z = tracing::to_float4(rotation[2]);
-    if (one_by_one_) one_by_one_->set_lights(turned());
   });
-}
-
-TurnedSpheres Caustics::turned() const
-{
-  return {stored_, radii_, sets_, used_sets_, spheres_, air_.object_x, air_.object_y, air_.object_z};
 }
 
 void Caustics::compile_air(int side)
@@ -107,7 +97,7 @@ void Caustics::compile_air(int side)
                     {"way_of", way_of_},
                     {"radii", radii_},
                     {"sets", sets_},
-                    {"eights", (used_sets_ + 7) / 8},
+                    {"eights", used_eights_},
                     {"spheres", spheres_},
                     {"object_x", air_.object_x},
                     {"object_y", air_.object_y},
@@ -121,67 +111,16 @@ void Caustics::compile_air(int side)
 void Caustics::cast(const CastTexels& texels)
 {
   timed([&] {
-    if (one_by_one_) return one_by_one_->cast(turned(), texels);
     cast_.run(texels.count, group, texels.arguments(),
               {{"stored", stored_},
                {"ways", ways_},
                {"way_of", way_of_},
                {"radii", radii_},
                {"sets", sets_},
-               {"eights", (used_sets_ + 7) / 8},
+               {"eights", used_eights_},
                {"spheres", spheres_}});
     context_.finish();
   });
-}
-
-OneByOne::OneByOne(Technique technique, std::size_t texels, std::size_t channels, const compute::Context& context) : context_(context)
-{
-  if (technique == Technique::compiled) compiled_.emplace(context, "compiled spheres", 3 * texels);
-  const compute::Program program(context, "environment/one_by_one.cl", {{"NEPHROID_CHANNELS", std::to_string(channels)}});
-  cast_ = program.kernel("cast");
-  compile_ = program.kernel("compile");
-  cast_compiled_ = program.kernel("cast_compiled");
-}
-
-std::uint64_t OneByOne::bytes(Technique technique, std::size_t texels)
-{
-  return technique == Technique::compiled ? 3 * sizeof(float) * texels : 0;
-}
-
-void OneByOne::set_lights(const TurnedSpheres& turned)
-{
-  if (!compiled_) return;
-  const auto count = static_cast<std::uint32_t>(compiled_->size() / 3);
-  run(compile_, count, turned,
-      {{"object_x", turned.object_x},
-       {"object_y", turned.object_y},
-       {"object_z", turned.object_z},
-       {"count", count},
-       {"compiled", *compiled_}});
-}
-
-void OneByOne::cast(const TurnedSpheres& turned, const CastTexels& texels)
-{
-  if (!compiled_) return run(cast_, texels.count, turned, texels.arguments());
-  cast_compiled_.run(texels.count, group, texels.arguments(),
-                     {{"compiled", *compiled_},
-                      {"radii", turned.radii},
-                      {"spheres", turned.spheres},
-                      {"object_x", turned.object_x},
-                      {"object_y", turned.object_y},
-                      {"object_z", turned.object_z}});
-  context_.finish();
-}
-
-void OneByOne::run(compute::Kernel& kernel, std::uint32_t items, const TurnedSpheres& turned, const std::vector<compute::Argument>& own)
-{
-  kernel.run(items, group, own,
-             {{"stored", turned.stored},
-              {"sets", turned.sets},
-              {"set_count", turned.set_count},
-              {"radii", turned.radii},
-              {"spheres", turned.spheres}});
-  context_.finish();
 }
 
 } // namespace nephroid::environment

@@ -4,13 +4,11 @@
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
 #include "environment/light/distant_lights.h"
-#include "environment/settings.h"
 #include "kernels/environment/render_types.h"
 #include "tracing/slices.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace nephroid::environment {
@@ -32,46 +30,13 @@ struct CastTexels {
   }
 };
 
-/// What is looked up, all of it on the device.
-struct TurnedSpheres {
-  const compute::Buffer<std::uint16_t>& stored;
-  const compute::Buffer<float>& radii;
-  const compute::Buffer<shared::DeviceEightSets>& sets;
-  int set_count;
-  shared::DeviceSpheres spheres;
-  shared::float4 object_x, object_y, object_z; ///< the object's axes in the scene
-};
-
-/// Caustics on receivers, put together set after set in the two ways that the thesis compares (table 3.3):
-/// kernels/environment/one_by_one.cl.
-class OneByOne {
-public:
-  /// texels: in their stored form, of all spheres of one direction. Throws failed where the device has not enough memory.
-  OneByOne(Technique technique, std::size_t texels, std::size_t channels, const compute::Context& context);
-
-  /// On the device, beside TurnedSpheres.
-  static std::uint64_t bytes(Technique technique, std::size_t texels);
-
-  void set_lights(const TurnedSpheres& turned);
-  /// turned: as set_lights had it.
-  void cast(const TurnedSpheres& turned, const CastTexels& texels);
-
-private:
-  /// own: further arguments.
-  void run(compute::Kernel& kernel, std::uint32_t items, const TurnedSpheres& turned, const std::vector<compute::Argument>& own);
-
-  compute::Context context_;
-  std::optional<compute::Buffer<float>> compiled_; ///< [sphere][texel of the stored form][3]; where sets are compiled
-  compute::Kernel cast_, compile_, cast_compiled_;
-};
-
 class Caustics {
 public:
   /// bake outlives it. Throws failed where the device has not enough memory.
-  Caustics(const Bake& bake, const compute::Context& context, Technique technique = Technique::eight_sets);
+  Caustics(const Bake& bake, const compute::Context& context);
 
   /// On a device.
-  static std::uint64_t bytes(const Bake& bake, Technique technique);
+  static std::uint64_t bytes(const Bake& bake);
   /// Of what compile_air() makes.
   static std::uint64_t air_bytes(const Bake& bake, int side);
 
@@ -99,7 +64,6 @@ public:
 private:
   template <class Work>
   void timed(const Work& work);
-  TurnedSpheres turned() const;
 
   compute::Context context_;
   int directions_; ///< of the bake
@@ -109,10 +73,9 @@ private:
   compute::Buffer<float> radii_;
   Air air_;
   compute::Buffer<shared::DeviceEightSets> sets_;
-  int used_sets_ = 0; ///< of the buffer's
+  int used_eights_ = 0; ///< of the buffer's
   double seconds_ = 0;
   compute::Kernel cast_, compile_air_;
-  std::optional<OneByOne> one_by_one_; ///< by the thesis' techniques
 };
 
 } // namespace nephroid::environment

@@ -66,7 +66,7 @@ bool SceneView::show(const preset::Preset& preset)
 
 void SceneView::set_bake(const Bake& bake)
 {
-  caustics_.emplace(bake, context_, settings(shown_).technique);
+  caustics_.emplace(bake, context_);
   renderer_->set_caustics(*caustics_);
 }
 
