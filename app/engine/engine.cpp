@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/engine.h"
 
+#include "base/error.h"
 #include "preset/settings_type.h"
+
+#include <fmt/format.h>
 
 #include <stdexcept>
 
@@ -23,6 +26,13 @@ const Engine& engine_of(const preset::Preset& preset)
   for (const Engine* engine : engines())
     if (&engine->settings() == &preset.settings.type()) return *engine;
   throw std::logic_error("settings of an engine that is not in app/engines.cpp");
+}
+
+void require_engine(const preset::Preset& preset, const Engine& engine, std::string_view lacks)
+{
+  if (&engine.settings() == &preset.settings.type()) return;
+  throw bad_input(Place(preset.source, "/engine"), fmt::format("is '{}', which {}", preset.settings.engine(), lacks),
+                  fmt::format("expected '{}'", name_of(engine)), "choose a preset of that engine");
 }
 
 preset::Camera camera_of(const preset::Preset& preset)

@@ -97,6 +97,9 @@ const std::vector<check::Check>& checks();
 /// Of a preset.
 const Engine& engine_of(const preset::Preset& preset);
 
+/// Throws bad_input at FILE#/engine for a preset of another engine. lacks: what that one cannot, "casts no pictures".
+void require_engine(const preset::Preset& preset, const Engine& engine, std::string_view lacks);
+
 /// The camera that a preset's picture in the window is seen by.
 preset::Camera camera_of(const preset::Preset& preset);
 

@@ -19,13 +19,6 @@ inline constexpr Choice<environment::SegmentMethod> choices<environment::Segment
     {environment::SegmentMethod::thesis, "thesis", "The brightest region is cut into halves of equal light (Algorithm 3.3)."}};
 
 template <>
-inline constexpr Choice<environment::Technique> choices<environment::Technique>[] = {
-    {environment::Technique::eight_sets, "eight_sets",
-     "Sets of spheres are looked up eight at a time, with the way that their light goes."},
-    {environment::Technique::direct, "direct", "The thesis': one set after the other."},
-    {environment::Technique::compiled, "compiled", "The thesis': all sets are added up into one (Algorithm 3.5), and that is looked up."}};
-
-template <>
 inline constexpr Choice<environment::Settings::Phase> choices<environment::Settings::Phase>[] = {
     {environment::Settings::Phase::henyey_greenstein, "henyey_greenstein", "By 'anisotropy', as mist and smoke do."},
     {environment::Settings::Phase::rayleigh, "rayleigh", "As clear air does: as much back as on, half of that to the sides."}};
@@ -55,10 +48,6 @@ inline void describe(preset::Fields& v, Settings& s)
   v.field("threshold", "A region with no more than this part of the environment's light is no light of its own.", s.threshold,
           {.bounds = within(0, 1)});
   v.field("refine", "Photons join the spheres, and the picture goes on to the truth; false: spheres alone, as in the thesis.", s.refine);
-  v.field("technique",
-          "How caustics on surfaces are put together from spheres. All but the first are there for the comparison of table 3.3: "
-          "they let light come from the object's middle.",
-          s.technique);
   v.field("cast", "Whether caustics fall on surfaces.", s.cast);
   v.field("extinction", "How much light a medium around the object takes; it makes caustics visible in the air. 0: there is none.",
           s.extinction, {.unit = "1 / unit", .bounds = within(0, 1000)});

@@ -2,6 +2,7 @@
 #include "environment/engine.h"
 
 #include "environment/checks.h"
+#include "environment/view/scene_view.h"
 
 #include <algorithm>
 
@@ -29,7 +30,7 @@ constexpr const char* new_scene = R"({
 
 constinit const engine::Engine engine{
     .settings = settings_type,
-    .state_version = 10,
+    .state_version = 11,
     .plan = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh) -> std::unique_ptr<plan::Plan> {
       return std::make_unique<EnvironmentPlan>(make_plan(preset, scene, bvh));
     },
@@ -45,32 +46,6 @@ constinit const engine::Engine engine{
                                  .run = "a glass ball under a picture of the sky"},
                      .new_scene = {.preset = new_scene, .what = "A glass sphere under a sky"},
                      .badge = {62, 104, 84}}};
-
-preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other)
-{
-  preset::Preset result = preset;
-  result.scene.camera = other.scene.camera;
-  if (result.scene.environment && other.scene.environment) result.scene.environment->rotate_deg = other.scene.environment->rotate_deg;
-  result.white = other.white;
-  result.name = other.name;
-  result.description = other.description;
-  Settings& s = settings(result);
-  const Settings& o = settings(other);
-  s.lights = o.lights;
-  s.segmentation = o.segmentation;
-  s.threshold = o.threshold;
-  return result;
-}
-
-preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset& other)
-{
-  preset::Preset result = preset;
-  for (std::size_t i = 0; i < result.scene.objects.size(); ++i) {
-    result.scene.objects[i].transform.rotate_deg = other.scene.objects[i].transform.rotate_deg;
-    result.scene.objects[i].transform.translate = other.scene.objects[i].transform.translate;
-  }
-  return result;
-}
 
 bool adoptable(const preset::Preset& before, const preset::Preset& now)
 {

@@ -41,12 +41,4 @@ std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const Environme
 /// `cast`, the segmentation, white, name or description differ.
 bool adoptable(const preset::Preset& before, const preset::Preset& now);
 
-// How a preset may differ from another for a run to go on, in parts.
-
-/// The preset with what a renderer takes on as it goes: camera, turn of the environment, segmentation and white of another.
-preset::Preset with_view_of(const preset::Preset& preset, const preset::Preset& other);
-
-/// The preset with objects turned and moved as in another.
-preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset& other);
-
 } // namespace nephroid::environment

@@ -2,6 +2,10 @@
 #include "environment/photons.h"
 
 #include "environment/settings.h"
+#include "environment/view/scene_view.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace nephroid::environment {
 namespace {
@@ -31,6 +35,63 @@ std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, c
 {
   if (plan.layers == 0) return nullptr;
   return photons::make_job(without_stop(preset), scene, bvh, plan, context);
+}
+
+void JoinedPhotons::begin(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const photons::RunPlan& plan)
+{
+  run_ = make_photons(preset, scene, bvh, plan, context_);
+  has_planned_ = true;
+}
+
+void JoinedPhotons::end()
+{
+  run_.reset();
+  has_planned_ = false;
+  ahead_ = 0;
+}
+
+bool JoinedPhotons::wants_turn(std::int64_t eye_passes, std::int64_t most) const
+{
+  if (!run_) return !has_planned_;
+  const auto done = static_cast<double>(eye_passes);
+  return complete_passes() < most && (eye_passes >= most || passes() < std::max((done + 1) / 4, done - 0.75) + ahead_);
+}
+
+void JoinedPhotons::step(const SceneView& view)
+{
+  if (run_) return run_->advance();
+  const Renderer& renderer = *view.renderer();
+  scene::Scene scene = renderer.scene();
+  scene.camera = scene::make_camera(view.shown().scene.camera, scene);
+  if (scene.environment) scene.environment->rotate_deg = view.backdrop_rotate_deg();
+  begin(view.shown(), scene, renderer.bvh(), plan_photons(view.shown(), scene, renderer.bvh()));
+}
+
+void JoinedPhotons::set_white(double white)
+{
+  if (run_) run_->set_white(white);
+}
+
+void JoinedPhotons::join(std::vector<Renderer::Layer>& layers, const Renderer::Layer& smooth, bool has_spheres)
+{
+  Renderer::Layer &direct = layers[Renderer::direct], &caustic = layers[Renderer::caustic];
+  if (direct.draw.empty()) direct.rgb = smooth.rgb;
+  if (!run_ || run_->batches() < 2) return;
+  run_->smooth(direct.rgb, direct.draw, smooth.rgb);
+  run_->set_estimate(has_spheres ? std::move(caustic.rgb) : std::vector<float>());
+  const std::shared_ptr<const job::Picture> sent = run_->snapshot().picture;
+  caustic = {"caustic", sent->layers.front().rgb, sent->error_draw};
+}
+
+void JoinedPhotons::state(tracing::State& state, const SceneView& view)
+{
+  bool has_run = run_ != nullptr;
+  state.value(ahead_);
+  state.value(has_run);
+  has_planned_ = has_run && has_planned_;
+  if (!has_run) return run_.reset();
+  if (!run_) step(view); // which begins
+  run_->state(state);
 }
 
 } // namespace nephroid::environment

@@ -64,7 +64,7 @@ std::vector<plan::Pass> view_passes(const preset::Preset& preset, const RenderTa
   const bool receivers = tracing::count_objects(*render->scene).diffuse > 0;
   passes.push_back({"cast", receivers && s.cast,
                     !s.cast     ? "environment.cast is false"
-                    : receivers ? fmt::format("caustics on diffuse surfaces, where a path ends; {}", preset::word(s.technique))
+                    : receivers ? "caustics on diffuse surfaces, where a path ends"
                                 : "no surface is diffuse"});
   passes.push_back(
       {"volume", render->has_medium,
@@ -87,11 +87,11 @@ std::vector<plan::Pass> photon_passes(const Settings& s, const photons::RunPlan*
           {"photon maps", maps.runs, maps.reason}};
 }
 
-std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake, const Settings& settings)
+std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const BakeTask& bake)
 {
   const scene::Scene& s = *render.scene;
   const std::uint64_t sky = s.environment ? tracing::bytes_of(s.environment->rgb) : 0;
-  return {{"caustic spheres", Caustics::bytes(bake.empty_bake(), settings.technique)},
+  return {{"caustic spheres", Caustics::bytes(bake.empty_bake())},
           {"whole scene", tracing::tree_bytes(*render.bvh) + tracing::surface_bytes(s)},
           {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
           {"receivers", Renderer::receiver_bytes()},
@@ -137,7 +137,7 @@ EnvironmentPlan make_plan(const preset::Preset& preset, const scene::Scene& scen
   for (plan::Pass& pass : code_passes(preset, task)) plan.passes.push_back(std::move(pass));
   plan.buffers = buffers_of(task, scene, plan.bakes);
   if (plan.render)
-    for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task, s)) plan.buffers.push_back(std::move(buffer));
+    for (plan::PlannedBuffer& buffer : view_buffers(*plan.render, task)) plan.buffers.push_back(std::move(buffer));
   if (plan.photons && plan.photons->layers > 0)
     for (const bool on_host : {false, true}) {
       plan::PlannedBuffer all{on_host ? "photons (host)" : "photons", 0, on_host};

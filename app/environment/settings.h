@@ -9,10 +9,6 @@
 
 namespace nephroid::environment {
 
-/// How caustics on receivers are put together from the spheres of all lights. Those other than eight_sets are the thesis' (3.4.3,
-/// table 3.3) and let all light come from the object's middle.
-enum class Technique { eight_sets, direct, compiled };
-
 struct Settings {
   enum class Radii { quadratic, uniform };
   std::vector<std::string> objects{}; ///< that are baked together; empty: all of glass and all mirrors
@@ -26,8 +22,7 @@ struct Settings {
   SegmentMethod segmentation = SegmentMethod::variance;
   double threshold = 1e-7; ///< a region with no more than this part of the map's light is no light
   bool refine = true;      ///< photons join the spheres
-  Technique technique = Technique::eight_sets;
-  bool cast = true; ///< caustics on surfaces
+  bool cast = true;        ///< caustics on surfaces
   enum class Phase { henyey_greenstein, rayleigh };
   double extinction = 0;                  ///< of the medium around the object, 1 / unit; 0: there is none
   double albedo = 1;                      ///< which part of what is taken is scattered, 0..1

@@ -103,6 +103,19 @@ std::shared_ptr<const job::Picture> spheres_picture(const Bake& bake, std::size_
   return picture;
 }
 
+void SpherePictures::update(const Bake& bake, int width, int height, double white)
+{
+  const Shown shown = choose_shown(bake, width, height);
+  const auto baked = static_cast<std::size_t>(
+      std::ranges::count_if(shown.directions, [&](std::size_t direction) { return direction < bake.baked.size(); }));
+  if (sheet_ && baked == directions_.size()) return;
+  if (baked < directions_.size()) directions_.clear(); // an earlier state was loaded
+  sheet_ = sheet(bake, shown, width, height, white);
+  for (std::size_t i = directions_.size(); i < baked; ++i)
+    directions_.push_back(
+        {fmt::format("direction_{:03}", shown.directions[i] + 1), spheres_picture(bake, shown.directions[i], shown.spheres, white)});
+}
+
 void add_figures(const Bake& bake, job::Snapshot& snapshot)
 {
   snapshot.curves.push_back({"directions", {"direction", "x", "y", "z", "met", "sent", "absorbed", "lost"}, {}});

@@ -26,6 +26,21 @@ std::shared_ptr<const job::Picture> sheet(const Bake& bake, const Shown& shown, 
 std::shared_ptr<const job::Picture> spheres_picture(const Bake& bake, std::size_t direction, const std::vector<std::size_t>& spheres,
                                                     double white);
 
+/// Both kinds of pictures of a bake, as far as it is.
+class SpherePictures {
+public:
+  /// Makes what shows the directions that were baked since the last call. width, height, white: of the sheet.
+  void update(const Bake& bake, int width, int height, double white);
+  /// Null before the first update().
+  const std::shared_ptr<const job::Picture>& all() const { return sheet_; }
+  /// Of each direction that is shown and baked.
+  const std::vector<job::NamedPicture>& directions() const { return directions_; }
+
+private:
+  std::shared_ptr<const job::Picture> sheet_; ///< of directions_
+  std::vector<job::NamedPicture> directions_;
+};
+
 /// The curve "directions" and the scalars of a bake: how large it is, and where its light goes.
 void add_figures(const Bake& bake, job::Snapshot& snapshot);
 

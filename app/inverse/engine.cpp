@@ -2,6 +2,9 @@
 #include "inverse/engine.h"
 
 #include "base/error.h"
+#include "inverse/glass_view.h"
+#include "inverse/job.h"
+#include "inverse/judge.h"
 #include "inverse/object_view.h"
 
 #include <fmt/format.h>
@@ -42,13 +45,13 @@ constexpr const char* new_scene = R"({
 
 } // namespace
 
-std::string receiver_group(std::size_t receiver) { return fmt::format("inverse/receivers/{}", receiver); }
-
 constinit const engine::Engine engine{
     .settings = settings_type,
     .state_version = 4,
     .plan = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&) -> std::unique_ptr<plan::Plan> {
-      return std::make_unique<InversePlan>(make_plan(preset));
+      auto plan = std::make_unique<InversePlan>(make_plan(preset));
+      plan->notes = notes_of(preset, *plan->design);
+      return plan;
     },
     .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan,
               const compute::Context& context) { return make_job(preset, dynamic_cast<const InversePlan&>(plan), context); },

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/figures.h"
 
-#include "inverse/engine.h"
-
 #include <fmt/format.h>
 
 namespace nephroid::inverse {
@@ -19,6 +17,8 @@ void add_cost(job::Snapshot& snapshot, const std::string& group, const Cost& c)
 }
 
 } // namespace
+
+std::string receiver_group(std::size_t receiver) { return fmt::format("inverse/receivers/{}", receiver); }
 
 void add_costs(job::Snapshot& snapshot, const Layout& layout, const std::vector<Cost>& believed, const std::vector<Cost>& judged)
 {

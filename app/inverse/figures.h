@@ -7,7 +7,13 @@
 #include "inverse/judge.h"
 #include "job/job.h"
 
+#include <string>
+#include <vector>
+
 namespace nephroid::inverse {
+
+/// Where a snapshot has a receiver's figures: its distance and size, what the search believes of its picture and what the judge says.
+std::string receiver_group(std::size_t receiver);
 
 /// Of all pictures and of each receiver. judged: empty as long as nothing is.
 void add_costs(job::Snapshot& snapshot, const Layout& layout, const std::vector<Cost>& believed, const std::vector<Cost>& judged);

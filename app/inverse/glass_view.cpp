@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/engine.h"
+#include "inverse/glass_view.h"
 
-#include "inverse/layout.h"
+#include "inverse/light.h"
 #include "optics/colour.h"
 #include "preset/read.h"
 #include "scene/materials.h"
@@ -156,7 +156,7 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   preset::Scene& scene = view.scene;
   scene.camera = camera(layout, falls);
   scene.materials["glass"].type = preset::Material::Type::dielectric;
-  if (layout.coloured)
+  if (layout.coloured())
     scene.materials["glass"].dispersion = dispersion_of(preset);
   else
     scene.materials["glass"].dispersion.n = layout.n;

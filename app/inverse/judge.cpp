@@ -2,7 +2,7 @@
 #include "inverse/judge.h"
 
 #include "inverse/bending.h"
-#include "inverse/engine.h"
+#include "inverse/light.h"
 #include "inverse/uniform.h"
 
 #include <algorithm>
@@ -53,8 +53,8 @@ std::uint32_t part_step(int parts)
 shared::DeviceFront front_of(const Layout& l, std::size_t screens)
 {
   const auto number = [](double value) { return static_cast<float>(value); };
-  const bool lamp = l.lamp.has_value();
-  const glm::dvec3 beside = l.lamp.value_or(glm::dvec3(0));
+  const bool lamp = l.light.lamp.has_value();
+  const glm::dvec3 beside = l.light.lamp.value_or(glm::dvec3(0));
   return {.direction = four(light_ray(l, {0, 0, l.thickness}).direction),
           .lamp = four(beside),
           .lamp_weight = lamp ? number(lamp_weight(l)) : 0,
@@ -75,7 +75,7 @@ shared::DeviceFront front_of(const Layout& l, std::size_t screens)
           .cells_x = l.cells.x,
           .cells_y = l.cells.y,
           .screens = static_cast<int>(screens),
-          .part_step = l.spectrum.empty() ? 0 : part_step(rays_along(l) * rays_along(l)),
+          .part_step = l.spectrum ? part_step(rays_along(l) * rays_along(l)) : 0,
           .is_round = l.round ? 1 : 0};
 }
 
@@ -98,8 +98,8 @@ std::vector<shared::DeviceReceiver> screens_of(const Layout& l)
 std::vector<shared::float4> parts_of(const Layout& l, int count)
 {
   std::vector<shared::float4> parts;
-  if (!l.spectrum.empty())
-    for (const LightPart& part : equal_parts(l.spectrum, static_cast<std::size_t>(count))) {
+  if (l.spectrum)
+    for (const LightPart& part : equal_parts(l.spectrum->parts, static_cast<std::size_t>(count))) {
       const glm::dvec3 xyz = part.xyz * static_cast<double>(count);
       parts.push_back({static_cast<float>(part.n), static_cast<float>(xyz.x), static_cast<float>(xyz.y), static_cast<float>(xyz.z)});
     }
@@ -113,7 +113,7 @@ void write_sum(compute::Buffer<std::int64_t>& buffer, const std::vector<std::int
   if (buffer.communicator().is_root()) buffer.write(sum);
 }
 
-std::size_t channels(const Layout& l) { return l.coloured ? 3 : 1; }
+std::size_t channels(const Layout& l) { return l.coloured() ? 3 : 1; }
 
 /// The parallelogram's law: with noise, each half is farther from what is wanted than their mean is, by its square.
 double noise_of(double whole, double a, double b) { return std::sqrt(std::max(0.0, (a * a + b * b) / 2 - whole * whole)); }
@@ -165,8 +165,8 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
 Judge::Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
              const std::vector<Target>& targets)
     : context_(context), layout_(layout), targets_(targets),
-      solid_(context, solid, layout.blurs(), layout.coloured), seed_{static_cast<std::uint32_t>(seed),
-                                                                     static_cast<std::uint32_t>(seed >> 32)}
+      solid_(context, solid, layout.blurs(), layout.coloured()), seed_{static_cast<std::uint32_t>(seed),
+                                                                       static_cast<std::uint32_t>(seed >> 32)}
 {
   const std::vector<shared::DeviceReceiver> screens = screens_of(layout);
   front_ = front_of(layout, screens.size());
@@ -326,6 +326,6 @@ check::Result one_facet(const compute::Context& context, std::uint64_t seed)
 
 } // namespace
 
-std::vector<check::Check> closed_forms() { return {{"inverse: a facet's spot", one_facet}}; }
+check::Checks closed_forms() { return {{"inverse: a facet's spot", one_facet}}; }
 
 } // namespace nephroid::inverse

@@ -2,6 +2,7 @@
 // The finished solid's own pictures: rays through its mesh, walls and all, by Snell's law, on the device (kernels/inverse/judge.cl).
 #pragma once
 #include "base/bytes.h"
+#include "check/check.h"
 #include "compute/compute.h"
 #include "inverse/assign/cost.h"
 #include "inverse/facets/solid.h"
@@ -103,5 +104,8 @@ private:
   std::vector<std::vector<double>> light_;                 ///< [screen][cell], in facets
   std::array<std::vector<std::vector<double>>, 2> halves_; ///< the same of even and odd rounds
 };
+
+/// Closed forms, for `nephroid check`.
+check::Checks closed_forms();
 
 } // namespace nephroid::inverse

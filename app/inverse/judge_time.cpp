@@ -20,7 +20,7 @@ Layout piece_of(const Layout& layout)
   Layout piece = layout;
   piece.facets = glm::min(layout.facets, glm::ivec2(32));
   piece.size = layout.facet() * glm::dvec2(piece.facets);
-  piece.incoming.clear();
+  piece.light.facets.reset();
   piece.free_heights = false;
   return piece;
 }

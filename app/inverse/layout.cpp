@@ -2,6 +2,7 @@
 #include "inverse/layout.h"
 
 #include "inverse/bending.h"
+#include "inverse/light.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -16,8 +17,8 @@ namespace {
 /// the steepest one for light straight on.
 double most_relief(const Layout& layout)
 {
-  double tilt = glm::length(layout.sines);
-  if (layout.lamp)
+  double tilt = glm::length(layout.light.sines);
+  if (layout.light.lamp)
     for (const glm::dvec2& corner : {glm::dvec2(1, 1), glm::dvec2(-1, 1), glm::dvec2(1, -1), glm::dvec2(-1, -1)})
       tilt = std::max(tilt, glm::length(incoming_at(layout, corner * layout.size / 2.0).sines));
   const double bent = std::atan(glm::length(facet_gradient({usable_slope(layout.n), 0}, layout.n))) + std::asin(tilt / layout.n);
@@ -33,7 +34,7 @@ double least_turn(const Layout& layout, const glm::dvec2& to, double distance)
   for (int i = 0; i < across * across; ++i) {
     const glm::dvec2 middle = (glm::dvec2(i % across, i / across) / (across - 1.0) - 0.5) * (layout.size - layout.facet());
     for (const glm::dvec2& from : {middle, glm::clamp(to, -(layout.size - layout.facet()) / 2.0, (layout.size - layout.facet()) / 2.0)}) {
-      const glm::dvec2 sines = layout.incoming.empty() ? glm::dvec2(0) : incoming_at(layout, from).sines;
+      const glm::dvec2 sines = layout.light.facets ? incoming_at(layout, from).sines : glm::dvec2(0);
       closest = std::max(closest, glm::dot(light_inside(sines, layout.n), direction_of((to - from) / distance)) / layout.n);
     }
   }
@@ -128,41 +129,9 @@ void check_aim(const Layout& l, const Place& own)
       fmt::format("expected at most {:.6g} mm", cell / 2 / turn), "choose a nearer receiver, a larger receiver_mm or fewer cells");
 }
 
-} // namespace
-
-Layout make_layout(const preset::Preset& preset)
+/// Facets must leave the object in one piece, and the nearest receiver free.
+void check_room(const Layout& l, const Place& own)
 {
-  const Settings& s = settings(preset);
-  const Place own = Place(preset.source) / "inverse";
-  Layout l;
-  l.size = {s.size_mm[0], s.size_mm[1]};
-  l.round = s.outline == Settings::Outline::round;
-  l.thickness = s.thickness_mm;
-  l.facets = {s.facets[0], s.facets[1]};
-  set_spectrum(l, preset);
-  l.receiver = s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1]) : l.size;
-  l.cells = {s.cells[0], s.cells[1]};
-  for (const Receiver& r : s.receivers) {
-    l.distances.push_back(r.distance_mm);
-    l.weights.push_back(r.weight);
-    l.offsets.emplace_back(r.offset_mm[0], r.offset_mm[1]);
-  }
-  if (std::ranges::all_of(l.offsets, [](const glm::dvec2& offset) { return offset == glm::dvec2(0); })) l.offsets.clear();
-  for (std::size_t j = 1; j < l.distances.size() && s.frames > 0; ++j)
-    for (int k = 1; k <= s.frames; ++k) l.frames.push_back(glm::mix(l.distances[j - 1], l.distances[j], k / (s.frames + 1.0)));
-  l.sun_radius = std::tan(glm::radians(s.sun_deg / 2));
-  l.scatter = std::tan(glm::radians(s.scatter_deg));
-
-  l.draft = std::tan(glm::radians(s.draft_deg));
-  l.smoothing = s.smoothing_normals / s.smoothing_pictures;
-  l.free_heights = s.heights == Settings::Heights::free;
-  l.band = band_of(s, own);
-  l.steepest = 2 * l.band / glm::length(l.facet());
-  if (s.max_slope_deg) l.steepest = std::min(l.steepest, std::tan(glm::radians(*s.max_slope_deg)));
-  check_tool(l, s, own);
-  check_constraints(l, s, own);
-  set_light(l, s.light, own / "light");
-
   const double relief = most_relief(l);
   const auto refuse = [&](const Place& where, double value, const char* what) {
     if (value > relief) return;
@@ -173,6 +142,67 @@ Layout make_layout(const preset::Preset& preset)
   };
   refuse(own / "thickness_mm", l.thickness, "the object holds together");
   refuse(own / "receivers" / 0 / "distance_mm", l.distances.front(), "the receiver is free of the object");
+}
+
+template <class Of>
+auto of_receivers(const Settings& s, const Of& of)
+{
+  std::vector<decltype(of(s.receivers.front()))> values;
+  for (const Receiver& receiver : s.receivers) values.push_back(of(receiver));
+  return values;
+}
+
+/// So many between each receiver and the next.
+std::vector<double> frames_of(const Settings& s)
+{
+  std::vector<double> frames;
+  for (std::size_t j = 1; j < s.receivers.size(); ++j)
+    for (int k = 1; k <= s.frames; ++k)
+      frames.push_back(glm::mix(s.receivers[j - 1].distance_mm, s.receivers[j].distance_mm, k / (s.frames + 1.0)));
+  return frames;
+}
+
+std::optional<std::vector<glm::dvec2>> offsets_of(const Settings& s)
+{
+  const auto offsets = of_receivers(s, [](const Receiver& r) { return glm::dvec2(r.offset_mm[0], r.offset_mm[1]); });
+  if (std::ranges::all_of(offsets, [](const glm::dvec2& offset) { return offset == glm::dvec2(0); })) return std::nullopt;
+  return offsets;
+}
+
+} // namespace
+
+Layout make_layout(const preset::Preset& preset)
+{
+  const Settings& s = settings(preset);
+  const Place own = Place(preset.source) / "inverse";
+  const glm::dvec2 size(s.size_mm[0], s.size_mm[1]);
+  const glm::ivec2 facets(s.facets[0], s.facets[1]);
+  const Refraction refraction = make_refraction(preset);
+  const double band = band_of(s, own), steepest = 2 * band / glm::length(size / glm::dvec2(facets));
+  Layout l{.size = size,
+           .round = s.outline == Settings::Outline::round,
+           .thickness = s.thickness_mm,
+           .facets = facets,
+           .n = refraction.n,
+           .spectrum = refraction.spectrum,
+           .receiver = s.receiver_mm ? glm::dvec2((*s.receiver_mm)[0], (*s.receiver_mm)[1]) : size,
+           .cells = {s.cells[0], s.cells[1]},
+           .distances = of_receivers(s, [](const Receiver& r) { return r.distance_mm; }),
+           .frames = frames_of(s),
+           .weights = of_receivers(s, [](const Receiver& r) { return r.weight; }),
+           .offsets = offsets_of(s),
+           .sun_radius = std::tan(glm::radians(s.sun_deg / 2)),
+           .scatter = std::tan(glm::radians(s.scatter_deg)),
+           .light = {},
+           .free_heights = s.heights == Settings::Heights::free,
+           .band = band,
+           .steepest = s.max_slope_deg ? std::min(steepest, std::tan(glm::radians(*s.max_slope_deg))) : steepest,
+           .draft = std::tan(glm::radians(s.draft_deg)),
+           .smoothing = s.smoothing_normals / s.smoothing_pictures};
+  check_tool(l, s, own);
+  check_constraints(l, s, own);
+  l.light = make_illumination(l, s.light, own / "light");
+  check_room(l, own);
   check_aim(l, own);
   return l;
 }
@@ -190,7 +220,7 @@ double usable_slope(const Layout& layout) { return std::min(usable_slope(layout.
 
 void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset)
 {
-  const double limit = layout.incoming.empty() ? usable_slope(layout) : usable_slope(layout.n);
+  const double limit = layout.light.facets ? usable_slope(layout.n) : usable_slope(layout);
   const std::string limits = limit < usable_slope(layout.n) ? "the constraints on the facets let it have a slope of"
                                                             : fmt::format("an index of {:.4g} bends it by a slope of", layout.n);
   for (std::size_t j = 0; j < targets.size(); ++j) {

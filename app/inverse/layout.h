@@ -11,6 +11,9 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace nephroid::inverse {
 
@@ -20,6 +23,14 @@ struct Incoming {
   glm::dvec2 around{0}; ///< the facet's gradient as its neighbours see it; at first of one that lights the middle of the last receiver
   double power = 1;     ///< on the facet as if it lay flat, over the mean of all facets
   glm::dmat2 spread{0}; ///< of the sines over x and y: a lamp's light falls on each place of the facet from another side
+};
+
+/// Where the light comes from, and what of it falls on the facets.
+struct Illumination {
+  glm::dvec2 sines{0};            ///< of parallel light: x and y of its unit direction before the front
+  std::optional<glm::dvec3> lamp; ///< of a point light: its place
+  /// On each facet. None: parallel light straight on a rectangle, which all facets get alike.
+  std::optional<std::vector<Incoming>> facets;
 };
 
 /// Where column and row are among values that are kept row by row, `columns` of them a row.
@@ -33,20 +44,17 @@ struct Layout {
   bool round = false;        ///< it is the ellipse within this size
   double thickness = 10;
   glm::ivec2 facets{128, 128};
-  double n = 1.5;                  ///< index of the object over that of what is around it: the mean over what counts of the light
-  std::vector<LightPart> spectrum; ///< by wavelength; empty: one index and no colours
-  bool coloured = false;           ///< what counts is luminance, else energy
-  glm::dvec2 receiver{100, 100};   ///< size of every receiver
-  glm::ivec2 cells{64, 64};        ///< of every receiver
-  std::vector<double> distances;   ///< ascending
-  std::vector<double> frames;      ///< distances of further screens, which the judge alone looks at; ascending
-  std::vector<double> weights;     ///< of each receiver's picture; empty: they count alike
-  std::vector<glm::dvec2> offsets; ///< of each receiver's middle beside the z axis; empty: all are centred on it
-  double sun_radius = 0;           ///< of the sun's disc: tangent of its half angle
-  double scatter = 0;              ///< standard deviation of a slope, along x and along y
-  glm::dvec2 sines{0};             ///< of parallel light: x and y of its unit direction before the front
-  std::optional<glm::dvec3> lamp;  ///< of a point light: its place
-  std::vector<Incoming> incoming;  ///< of each facet; empty: straight on
+  double n = 1.5;                                 ///< Refraction::n
+  std::optional<Spectrum> spectrum;               ///< Refraction::spectrum
+  glm::dvec2 receiver{100, 100};                  ///< size of every receiver
+  glm::ivec2 cells{64, 64};                       ///< of every receiver
+  std::vector<double> distances;                  ///< ascending
+  std::vector<double> frames;                     ///< distances of further screens, which the judge alone looks at; ascending
+  std::optional<std::vector<double>> weights;     ///< of each receiver's picture; none: they count alike
+  std::optional<std::vector<glm::dvec2>> offsets; ///< of each receiver's middle beside the z axis; none: all are centred on it
+  double sun_radius = 0;                          ///< of the sun's disc: tangent of its half angle
+  double scatter = 0;                             ///< standard deviation of a slope, along x and along y
+  Illumination light;
 
   bool free_heights = false;                                 ///< else every facet's middle is at z = 0
   double band = std::numeric_limits<double>::infinity();     ///< no corner of a facet is further from z = 0
@@ -58,7 +66,13 @@ struct Layout {
   /// Beside a round object's outline.
   bool is_beside(const glm::dvec2& p) const { return round && glm::length(p / size) > 0.5; }
   /// Light has a width, or many wavelengths.
-  bool blurs() const { return sun_radius > 0 || scatter > 0 || !spectrum.empty(); }
+  bool blurs() const { return sun_radius > 0 || scatter > 0 || spectrum; }
+  /// What counts of light is luminance, else energy.
+  bool coloured() const { return spectrum && spectrum->coloured; }
+  /// Of the spectrum; none where there is none.
+  std::span<const LightPart> parts() const { return spectrum ? spectrum->parts : std::span<const LightPart>(); }
+  /// On each facet; none where all get the same.
+  std::span<const Incoming> incoming() const { return light.facets ? *light.facets : std::span<const Incoming>(); }
   glm::dvec2 facet() const { return size / glm::dvec2(facets); }
   glm::dvec2 cell() const { return receiver / glm::dvec2(cells); }
   std::size_t facet_count() const { return static_cast<std::size_t>(facets.x) * static_cast<std::size_t>(facets.y); }
@@ -73,15 +87,15 @@ struct Layout {
     const glm::dvec2 at = glm::dvec2(i % columns, i / columns) + 0.5, part = whole / glm::dvec2(parts);
     return {at.x * part.x - whole.x / 2, whole.y / 2 - at.y * part.y};
   }
-  glm::dvec2 sines_on(std::size_t facet) const { return incoming.empty() ? glm::dvec2(0) : incoming[facet].sines; }
+  glm::dvec2 sines_on(std::size_t facet) const { return light.facets ? (*light.facets)[facet].sines : glm::dvec2(0); }
   /// Half of the rectangle about the z axis that the object and all receivers fill.
   glm::dvec2 half_room() const
   {
     glm::dvec2 half = glm::max(size, receiver) / 2.0;
-    for (const glm::dvec2& offset : offsets) half = glm::max(half, glm::abs(offset) + receiver / 2.0);
+    for (std::size_t j = 0; offsets && j < offsets->size(); ++j) half = glm::max(half, glm::abs(offset(j)) + receiver / 2.0);
     return half;
   }
-  glm::dvec2 offset(std::size_t of) const { return offsets.empty() ? glm::dvec2(0) : offsets[of]; }
+  glm::dvec2 offset(std::size_t receiver_index) const { return offsets ? (*offsets)[receiver_index] : glm::dvec2(0); }
   /// Of a point of a receiver, from its middle, in cells from its top left corner.
   glm::dvec2 in_cells(const glm::dvec2& p) const { return {(p.x + receiver.x / 2) / cell().x, (receiver.y / 2 - p.y) / cell().y}; }
   /// Where a point of a receiver lies, given from its middle; empty: beside it.
@@ -103,10 +117,6 @@ using Target = std::vector<double>;
 /// would reach the front or the nearest receiver, and where the farthest is too far for the solid to aim at its cells.
 Layout make_layout(const preset::Preset& preset);
 
-/// Fills n, spectrum and coloured. Throws bad_input where the index cannot be read, is 1 or is not known for all of the light, and
-/// for a spectrum without power.
-void set_spectrum(Layout& layout, const preset::Preset& preset);
-
 /// A lattice of facets that speaks for all: every one up to so many a side.
 std::vector<std::size_t> some_facets(const Layout& layout, int a_side);
 
@@ -115,28 +125,5 @@ double usable_slope(const Layout& layout);
 
 /// Throws bad_input where no facet can bend light far enough to reach a lit cell.
 void check_reach(const Layout& layout, const std::vector<Target>& targets, const preset::Preset& preset);
-
-/// Fills sines, lamp and incoming. Parallel light straight on a rectangle needs no table of facets. Throws bad_input, naming the tilt or
-/// distance that would do, for light from behind the front, and where facets would stand in each other's light; also where no light that
-/// enters through the front reaches a facet.
-void set_light(Layout& layout, const Light& light, const Place& where);
-
-/// Fills incoming, the rest of the light being known. False: no light reaches any facet.
-bool light_facets(Layout& layout);
-
-/// At a facet's middle. power: over light that falls straight on or, of a lamp, in units of its intensity over a square millimetre.
-Incoming incoming_at(const Layout& layout, const glm::dvec2& middle);
-
-/// How much of a rectangle lies within the object's outline.
-double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size);
-
-/// Light that falls on a place of the front; weight: over its mean.
-struct LightRay {
-  glm::dvec3 direction{0, 0, -1};
-  double weight = 1;
-};
-LightRay light_ray(const Layout& layout, const glm::dvec3& front);
-/// Of a lamp: that weight over the solid angle of a square millimetre of the front there.
-double lamp_weight(const Layout& layout);
 
 } // namespace nephroid::inverse

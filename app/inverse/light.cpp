@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/layout.h"
+#include "inverse/light.h"
 
 #include "base/parallel.h"
 #include "inverse/bending.h"
@@ -39,8 +39,8 @@ double through_front(const Layout& layout, const glm::dvec2& middle, const glm::
 
 Incoming from_lamp(const Layout& layout, const glm::dvec2& middle)
 {
-  const glm::dvec2 to = middle - glm::dvec2(*layout.lamp);
-  const LampWay way{layout.lamp->z - layout.thickness, layout.thickness, layout.n};
+  const glm::dvec2 to = middle - glm::dvec2(*layout.light.lamp);
+  const LampWay way{layout.light.lamp->z - layout.thickness, layout.thickness, layout.n};
   const double r = glm::length(to), q = way.sine(r), radial = 1 / way.change(q), around = r > 0 ? q / r : radial;
   const glm::dvec2 e = r > 0 ? to / r : glm::dvec2(1, 0);
   Incoming in;
@@ -56,8 +56,8 @@ double solid_angle(double x, double y, double z) { return std::atan(x * y / (z *
 
 double solid_angle_of_front(const Layout& layout)
 {
-  const glm::dvec2 low = -layout.size / 2.0 - glm::dvec2(*layout.lamp), high = low + layout.size;
-  const double z = layout.lamp->z - layout.thickness;
+  const glm::dvec2 low = -layout.size / 2.0 - glm::dvec2(*layout.light.lamp), high = low + layout.size;
+  const double z = layout.light.lamp->z - layout.thickness;
   if (!layout.round)
     return solid_angle(high.x, high.y, z) - solid_angle(low.x, high.y, z) - solid_angle(high.x, low.y, z) + solid_angle(low.x, low.y, z);
   constexpr int across = 256;
@@ -66,7 +66,7 @@ double solid_angle_of_front(const Layout& layout)
   for (std::size_t i = 0; i < std::size_t{across} * across; ++i) {
     const glm::dvec2 middle = Layout::middle_of(i, {across, across}, layout.size);
     sum += part_within(layout, middle, part) * part.x * part.y * z /
-           std::pow(glm::length(glm::dvec3(middle - glm::dvec2(*layout.lamp), z)), 3);
+           std::pow(glm::length(glm::dvec3(middle - glm::dvec2(*layout.light.lamp), z)), 3);
   }
   return sum;
 }
@@ -92,13 +92,13 @@ double worst_shadow(const Layout& layout)
 Layout with_tilt(Layout layout, double tilt_deg, double turn_deg)
 {
   const double turn = glm::radians(turn_deg);
-  layout.sines = std::sin(glm::radians(tilt_deg)) * glm::dvec2(std::cos(turn), std::sin(turn));
+  layout.light.sines = std::sin(glm::radians(tilt_deg)) * glm::dvec2(std::cos(turn), std::sin(turn));
   return layout;
 }
 
 Layout with_lamp(Layout layout, double distance, const std::array<double, 2>& offset)
 {
-  layout.lamp = {offset[0], offset[1], layout.thickness + distance};
+  layout.light.lamp = {offset[0], offset[1], layout.thickness + distance};
   return layout;
 }
 
@@ -142,8 +142,8 @@ Layout lit_by_lamp(const Layout& layout, const Light& light, const Place& where)
 Incoming incoming_at(const Layout& layout, const glm::dvec2& middle)
 {
   Incoming in;
-  in.sines = layout.sines;
-  if (layout.lamp) in = from_lamp(layout, middle);
+  in.sines = layout.light.sines;
+  if (layout.light.lamp) in = from_lamp(layout, middle);
   const double cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
   in.around = facet_gradient(nearest_reachable((layout.offset(layout.distances.size() - 1) - middle) / layout.distances.back(), layout.n,
                                                in.sines, layout.steepest),
@@ -152,32 +152,31 @@ Incoming incoming_at(const Layout& layout, const glm::dvec2& middle)
   return in;
 }
 
-void set_light(Layout& layout, const Light& light, const Place& where)
+Illumination make_illumination(Layout layout, const Light& light, const Place& where)
 {
-  if (light.type == Light::Type::point)
-    layout = lit_by_lamp(layout, light, where / "distance_mm");
-  else
-    layout = tilted(layout, light, where / "tilt_deg");
-  if (!light_facets(layout))
+  layout = light.type == Light::Type::point ? lit_by_lamp(layout, light, where / "distance_mm") : tilted(layout, light, where / "tilt_deg");
+  layout.light.facets = light_on_facets(layout);
+  const std::span<const Incoming> facets = layout.incoming();
+  if (layout.light.facets && std::ranges::none_of(facets, [](const Incoming& in) { return in.power > 0; }))
     throw bad_input(
         where,
         fmt::format("comes so much from the side that all of it leaves through a side of an object {:.4g} mm thick", layout.thickness),
         "expected light that reaches some facet through the front",
         "choose a smaller thickness_mm, or light that comes more from the front");
+  return layout.light;
 }
 
-bool light_facets(Layout& layout)
+std::optional<std::vector<Incoming>> light_on_facets(const Layout& layout)
 {
-  layout.incoming.clear();
-  if (!layout.lamp && layout.sines == glm::dvec2(0) && !layout.round) return true;
-  layout.incoming.resize(layout.facet_count());
-  for_ranges(layout.facet_count(), 1024, [&](std::size_t, const Range& range) {
-    for (std::size_t i = range.begin; i < range.end; ++i) layout.incoming[i] = incoming_at(layout, layout.middle(i));
+  if (!layout.light.lamp && layout.light.sines == glm::dvec2(0) && !layout.round) return std::nullopt;
+  std::vector<Incoming> facets(layout.facet_count());
+  for_ranges(facets.size(), 1024, [&](std::size_t, const Range& range) {
+    for (std::size_t i = range.begin; i < range.end; ++i) facets[i] = incoming_at(layout, layout.middle(i));
   });
   double sum = 0;
-  for (const Incoming& in : layout.incoming) sum += in.power;
-  for (Incoming& in : layout.incoming) in.power *= static_cast<double>(layout.facet_count()) / sum;
-  return sum > 0;
+  for (const Incoming& in : facets) sum += in.power;
+  for (Incoming& in : facets) in.power *= static_cast<double>(facets.size()) / sum;
+  return facets;
 }
 
 double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dvec2& size)
@@ -203,8 +202,8 @@ double part_within(const Layout& layout, const glm::dvec2& middle, const glm::dv
 
 LightRay light_ray(const Layout& layout, const glm::dvec3& front)
 {
-  if (!layout.lamp) return {glm::dvec3(layout.sines, -std::sqrt(1 - glm::dot(layout.sines, layout.sines))), 1};
-  const glm::dvec3 way = front - *layout.lamp;
+  if (!layout.light.lamp) return {glm::dvec3(layout.light.sines, -std::sqrt(1 - glm::dot(layout.light.sines, layout.light.sines))), 1};
+  const glm::dvec3 way = front - *layout.light.lamp;
   const double length = glm::length(way), angle = -way.z / (length * length * length); // of a square millimetre
   return {way / length, angle * lamp_weight(layout)};
 }

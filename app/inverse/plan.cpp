@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run of engine 3 does: method, constraints and blurs, and its memory.
+#include "inverse/plan.h"
+
 #include "base/counted.h"
 #include "inverse/assign/assignment.h"
-#include "inverse/bending.h"
 #include "inverse/describe_settings.h"
-#include "inverse/engine.h"
 #include "inverse/facets/smooth_solid.h"
 #include "inverse/lens/lens.h"
 #include "inverse/pictures/preview.h"
@@ -16,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace nephroid::inverse {
 namespace {
@@ -38,7 +38,7 @@ std::uint64_t triangles_of(const Settings& s, const Layout& l)
 
 std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
 {
-  const bool blurred = l.blurs(), straight = l.incoming.empty();
+  const bool blurred = l.blurs(), straight = !l.light.facets;
   const bool assign = s.method == Settings::Method::assign, thesis = s.method == Settings::Method::thesis,
              lens = s.method == Settings::Method::lens;
   const std::string what = fmt::format("{} x {} facets, {}, slopes up to {:.3g}", l.facets.x, l.facets.y,
@@ -73,51 +73,68 @@ std::vector<plan::Pass> passes_of(const Settings& s, const Layout& l)
        : l.round ? "a direction and a power of its own for each facet: none beside the round outline"
                  : "a direction of its own for each facet"},
       {"judge", true,
-       l.coloured ? "in colours, by rays through the finished solid, walls and all" : "rays through the finished solid, walls and all"}};
+       l.coloured() ? "in colours, by rays through the finished solid, walls and all" : "rays through the finished solid, walls and all"}};
 }
 
 } // namespace
 
+Design::Design(const preset::Preset& preset)
+    : layout(make_layout(preset)), targets(make_targets(preset, layout)), settings_(settings(preset))
+{
+}
+
+const std::vector<Target>& Design::best() const
+{
+  std::call_once(has_best_, [&] { best_ = best_possible(blurring_layout(settings_, layout), targets); });
+  return best_;
+}
+
 InversePlan make_plan(const preset::Preset& preset)
 {
+  const Settings& s = settings(preset);
   InversePlan plan;
-  plan.layout = make_layout(preset);
-  plan.targets = make_targets(preset, plan.layout);
-  plan.best = best_possible(blurring_layout(settings(preset), plan.layout), plan.targets);
-  const Layout& l = plan.layout;
-  const std::uint64_t triangles = plan.triangles = triangles_of(settings(preset), l);
-  if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Place(preset.source) / "inverse", settings(preset).mesh_error, triangles);
+  plan.design = std::make_shared<const Design>(preset);
+  const Layout& l = plan.design->layout;
+  const std::uint64_t triangles = plan.triangles = triangles_of(s, l);
+  if (stl_bytes(triangles) > most_stl_bytes) refuse_mesh(Place(preset.source) / "inverse", s.mesh_error, triangles);
   plan.engine = "inverse";
   plan.layers = 1;
   plan.defines = facet_defines(l);
   plan.smaller = "choose fewer inverse.facets, inverse.cells or inverse.frames, or a smaller scene.camera.resolution";
-  plan.passes = passes_of(settings(preset), l);
-  const std::uint64_t light_channels = l.coloured ? 6 : 2; // of even and odd rounds
+  plan.passes = passes_of(s, l);
+  const std::uint64_t light_channels = l.coloured() ? 6 : 2; // of even and odd rounds
   const int cut = 2 * halvings(l);
   const std::uint64_t with_errors = (cut > 0 ? triangle_bytes : copied_triangle_bytes) * (triangles << cut) +
                                     light_channels * sizeof(std::int64_t) * l.cell_count() * l.distances.size();
-  plan.buffers = {{"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming.size(), true},
+  plan.buffers = {{"light on the facets (host)", 2 * sizeof(Incoming) * l.incoming().size(), true},
                   {"light on the receivers (host)", 8 * sizeof(double) * l.cell_count() * l.distances.size(), true},
-                  {"facets and what the pictures lack", settings(preset).method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
-                  {"a lens's fine grids (host)", settings(preset).method == Settings::Method::lens ? Lens::bytes(l) : 0, true},
+                  {"facets and what the pictures lack", s.method == Settings::Method::assign ? DeviceFacets::bytes(l) : 0},
+                  {"a lens's fine grids (host)", s.method == Settings::Method::lens ? Lens::bytes(l) : 0, true},
                   {"light on the frames (host)", 5 * sizeof(double) * l.cell_count() * l.frames.size(), true},
                   {"the judge's light", light_channels * sizeof(std::int64_t) * l.cell_count() * (l.distances.size() + l.frames.size())},
                   {"the facets and their pictures (host)", facet_bytes * l.facet_count(), true},
                   {"the solid and its tree (host)", triangle_bytes * triangles, true},
-                  {"a solid with errors (host)", settings(preset).tolerances ? with_errors : 0, true}};
-  const bool drawn_by_lens =
-      settings(preset).method == Settings::Method::lens && settings(preset).receivers[0].picture.type != Picture::Type::file;
-  if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)) // a lens gathers a drawing's light
-    plan.notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
-                                     "soft; choose more facets or fewer cells",
-                                     l.facet().x, l.facet().y, l.cell().x, l.cell().y));
-  for (std::string& note : picture_notes(settings(preset), l, plan.targets, plan.best)) plan.notes.push_back(std::move(note));
-  for (std::string& note : workshop_notes(settings(preset), l)) plan.notes.push_back(std::move(note));
-  const std::int64_t trials = Pipeline::trials_of(settings(preset).thesis);
-  if (settings(preset).method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
-    plan.notes.push_back(fmt::format("the thesis' pipeline takes up to {} trials and stops after {}: a 'stop.passes' of {} lets it end",
-                                     trials, *preset.stop.passes, trials));
+                  {"a solid with errors (host)", s.tolerances ? with_errors : 0, true}};
   return plan;
+}
+
+std::vector<std::string> notes_of(const preset::Preset& preset, const Design& design)
+{
+  const Settings& s = settings(preset);
+  const Layout& l = design.layout;
+  std::vector<std::string> notes;
+  const bool drawn_by_lens = s.method == Settings::Method::lens && s.receivers[0].picture.type != Picture::Type::file;
+  if (!drawn_by_lens && (l.facet().x > l.cell().x / 2 * 1.001 || l.facet().y > l.cell().y / 2 * 1.001)) // a lens gathers a drawing's light
+    notes.push_back(fmt::format("facets of {:.4g} x {:.4g} mm are larger than half a cell of {:.4g} x {:.4g} mm: the pictures become "
+                                "soft; choose more facets or fewer cells",
+                                l.facet().x, l.facet().y, l.cell().x, l.cell().y));
+  std::ranges::move(picture_notes(s, l, design.targets, design.best()), std::back_inserter(notes));
+  std::ranges::move(workshop_notes(s, l), std::back_inserter(notes));
+  const std::int64_t trials = Pipeline::trials_of(s.thesis);
+  if (s.method == Settings::Method::thesis && preset.stop.passes.value_or(trials) < trials)
+    notes.push_back(fmt::format("the thesis' pipeline takes up to {} trials and stops after {}: a 'stop.passes' of {} lets it end", trials,
+                                *preset.stop.passes, trials));
+  return notes;
 }
 
 } // namespace nephroid::inverse

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "inverse/spectrum.h"
 
-#include "inverse/layout.h"
+#include "inverse/settings.h"
 #include "optics/colour.h"
 #include "scene/materials.h"
 
@@ -83,23 +83,22 @@ std::vector<LightPart> equal_parts(const std::vector<LightPart>& spectrum, std::
   return parts;
 }
 
-void set_spectrum(Layout& layout, const preset::Preset& preset)
+Refraction make_refraction(const preset::Preset& preset)
 {
   const Settings& s = settings(preset);
   const Place own = Place(preset.source) / "inverse";
   const FileFinder finder(std::filesystem::path(preset.source).parent_path());
-  layout.coloured = s.light.spectrum.has_value();
+  const bool is_coloured = s.light.spectrum.has_value();
   const Index index{scene::make_curve(s.index, finder, own / "index"), scene::outside_policy(s.index.outside), own / "index",
-                    layout.coloured ? "expected one for all wavelengths of light.spectrum"
-                                    : "expected another wavelength_nm or a narrower band_nm"};
-  layout.spectrum =
-      layout.coloured ? coloured(scene::make_light_spectrum(*s.light.spectrum, own / "light" / "spectrum"), index) : band(s, index);
-  const std::vector<LightPart>& all = layout.spectrum;
-  layout.n = 0;
-  for (const LightPart& part : all) layout.n += part.n * part.xyz.y;
-  if (layout.coloured || std::any_of(all.begin(), all.end(), [&](const LightPart& part) { return part.n != all.front().n; })) return;
-  layout.n = all.front().n;
-  layout.spectrum.clear();
+                    is_coloured ? "expected one for all wavelengths of light.spectrum"
+                                : "expected another wavelength_nm or a narrower band_nm"};
+  const std::vector<LightPart> parts =
+      is_coloured ? coloured(scene::make_light_spectrum(*s.light.spectrum, own / "light" / "spectrum"), index) : band(s, index);
+  if (!is_coloured && std::ranges::all_of(parts, [&](const LightPart& part) { return part.n == parts.front().n; }))
+    return {.n = parts.front().n};
+  double n = 0;
+  for (const LightPart& part : parts) n += part.n * part.xyz.y;
+  return {n, Spectrum{parts, is_coloured}};
 }
 
 } // namespace nephroid::inverse

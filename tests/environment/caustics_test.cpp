@@ -37,11 +37,10 @@ Bake made_bake(int side, int channels, const std::vector<double>& radii, const O
 class Cast {
 public:
   /// bake outlives it.
-  Cast(const Bake& bake, int size, Technique technique = Technique::eight_sets)
-      : caustics(bake, test::bake_context(), technique), size_(size),
-        count_(6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size)), list_(test::bake_context(), "list", count_),
-        distances_(test::bake_context(), "distances", count_), normals_(test::bake_context(), "normals", count_),
-        sums_(test::bake_context(), "caustics", 3 * count_)
+  Cast(const Bake& bake, int size)
+      : caustics(bake, test::bake_context()), size_(size), count_(6 * static_cast<std::size_t>(size) * static_cast<std::size_t>(size)),
+        list_(test::bake_context(), "list", count_), distances_(test::bake_context(), "distances", count_),
+        normals_(test::bake_context(), "normals", count_), sums_(test::bake_context(), "caustics", 3 * count_)
   {
     std::vector<shared::float4> normals;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -265,51 +264,6 @@ TEST(Caustics, OfAnEvenSkyHaveItsPower)
     fmt::print("q = {}: power over that sent {:.4f}; E r^2 {:.1f} % from even\n", q, power / (4 * test::pi * sent),
                100 * std::sqrt(squares));
     EXPECT_NEAR(power, 4 * test::pi * sent, 0.005 * power) << q;
-  }
-}
-
-/// Root mean square and largest distance between two, over the mean of the second.
-Off off(const std::vector<glm::dvec3>& found, const std::vector<glm::dvec3>& expected)
-{
-  double squares = 0, sum = 0;
-  Off o;
-  for (std::size_t t = 0; t < found.size(); ++t) {
-    const double distance = glm::distance(found[t], expected[t]);
-    o.most = std::max(o.most, distance);
-    squares += distance * distance;
-    sum += glm::length(expected[t]);
-  }
-  const auto count = static_cast<double>(found.size());
-  return {o.most * count / sum, std::sqrt(squares / count) * count / sum};
-}
-
-// Light that comes from the middle, by both techniques of the thesis. Where lights are added up first, texels of the sum are between those
-// of the sets: two straight lines in a row. Seen at an angle, and beyond the spheres and nearer than they are.
-TEST(Caustics, AreTheSameByTheThesisTechniques)
-{
-  for (const int channels : {1, 3}) {
-    const Bake bake =
-        made_bake(48, channels, {1, 1.5, 2}, [](std::size_t i, double r, const glm::dvec3& d) { return glm::dvec3((r * smooth(i, d)).x); });
-    std::vector<DistantLight> lights{{{0, -1, 0}, {0.4, 0.5, 0.6}}}; // a baked direction: one set
-    for (int i = 0; i < 5; ++i) lights.push_back({even_direction(i, 5), {1.0 + i, 2, 3.0 - 0.5 * i}});
-    lights.push_back({{1, 0, 0}, glm::dvec3(0)}); // no set
-    const auto found = [&](Technique technique, const std::vector<DistantLight>& of, double distance) {
-      Cast cast(bake, 32, technique);
-      cast.caustics.set_lights(lights, glm::dmat3(1)); // others before
-      cast.at(1.2);
-      cast.caustics.set_lights(of, scene::rotation({40, -100, 15}));
-      return cast.at(distance);
-    };
-    for (const double distance : {0.5, 1.0, 1.6, 7.0}) {
-      const std::vector<glm::dvec3> expected = found(Technique::eight_sets, lights, distance);
-      EXPECT_LT(off(found(Technique::direct, lights, distance), expected).most, 1e-4) << distance;
-      const Off o = off(found(Technique::compiled, lights, distance), expected);
-      fmt::print("distance {}: compiled is {:.3f} % off, {:.3f} % at most\n", distance, 100 * o.mean, 100 * o.most);
-      EXPECT_LT(o.mean, 0.003);
-      EXPECT_LT(o.most, 0.02);
-    }
-    for (const Technique technique : {Technique::direct, Technique::compiled})
-      EXPECT_EQ(found(technique, {}, 1), std::vector<glm::dvec3>(6UL * 32 * 32, glm::dvec3(0)));
   }
 }
 

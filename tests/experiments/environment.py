@@ -1,22 +1,18 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Measures engine 2 against engine 1 and prints the tables of docs/notebook/environment.md: the caustic layer where the
-camera sees a receiver, as the thesis compares.
+"""Measures engine 2 against engine 1 and prints the tables of docs/notebook/environment.md: the caustic layer where the camera sees a receiver, as the thesis compares.
 
-    tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--sky MAP] [--size N] [--reference-seconds S]
-    [TABLE...]
+    tests/experiments/environment.py PROGRAM OUT [--presets NAME...] [--sky MAP] [--size N] [--reference-seconds S] [TABLE...]
 
-Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1:
-how many, by which segmentation), spheres (3.2: how many, with which radii), histogram (figure 3.16), directions,
-refining; techniques (3.3 and figure 3.19: milliseconds, at 512 x 512, where kernels have been compiled before and the
-machine has nothing else to do), converging (error against time of all scenes, the same), estimate (a run's own estimate
-against its error). Engine 1 traces photons from every texel of the same environment through the same objects: no
-spheres, no segments. Two of its runs with different seeds tell the noise floor. What is in OUT is not made again. Needs
-numpy and ImageMagick.
+Tables: scenes (five scenes with their references; pictures OUT/NAME-sheet.png), and of the preset bunny: lights (3.1: how many, by which segmentation),
+spheres (3.2: how many, with which radii), histogram (figure 3.16), directions, refining; converging (error against time of all
+scenes, where kernels have been compiled before and the machine has nothing else to do), estimate (a run's own
+estimate against its error). Engine 1 traces photons from every texel of the same environment
+through the same objects: no spheres, no segments. Two of its runs with different seeds tell the noise floor. What is in OUT is not made again. Needs numpy
+and ImageMagick.
 """
 import argparse
 import json
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -161,34 +157,6 @@ def histogram(bench, preset):
         row(label, 100 * np.histogram(distances, [*BINS, np.inf])[0] / len(distances))
 
 
-LAMP = {"type": "directional", "direction": [0.3, -1, 0.2], "irradiance_w_m2": 3}
-TECHNIQUES = ["direct", "compiled", "eight_sets"]
-
-
-def techniques(bench, preset):
-    """Table 3.3 and figure 3.19: from new lights to the caustics on all that is seen, of a coarse picture and a full
-    one."""
-    def milliseconds(technique, q, s):
-        settings = {"scene.camera.resolution": [512, 512], "stop.passes": 1, **ONE, "environment.technique": technique,
-                    "environment.lights": max(q, 6),
-                    "environment.spheres": s}
-        if q == 1:  # a lamp instead of the sky: an environment has six lights at least
-            settings |= {"scene.environment": None, "scene.lights": [LAMP]}
-        sets = [word for key, value in settings.items() for word in ("--set", f"{key}={json.dumps(value)}")]
-        folder = bench.out / "technique"
-        shutil.rmtree(folder, ignore_errors=True)
-        bench.call("run", PRESETS / f"{preset}.json", "-o", folder, *sets)
-        return 1000 * json.loads((folder / "run.json").read_text())["phase_seconds"]["caustics"]
-
-    head(f"techniques: {preset}, 512 x 512, milliseconds", ["s", *TECHNIQUES])
-    for q in (1, 16, 24, 32, 48):
-        for s in (8, 16, 32):
-            row(str(q), [s, *(milliseconds(technique, q, s) for technique in TECHNIQUES)])
-    head(f"rate against q: {preset}, 512 x 512, s = 16, milliseconds", [str(q) for q in range(8, 65, 8)])
-    for technique in ("compiled", "direct", "eight_sets"):
-        row(technique, [milliseconds(technique, q, 16) for q in range(8, 65, 8)])
-
-
 SECONDS = (0.1, 0.25, 0.5, 1, 2, 4, 8)
 
 
@@ -236,7 +204,7 @@ def estimate(bench, preset):
                                                v in ratios.items()), flush=True)
 
 
-ALONE = {"histogram": histogram, "techniques": techniques}
+ALONE = {"histogram": histogram}
 OF_SCENES = {"converging": converging, "estimate": estimate}
 
 
@@ -244,8 +212,7 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     arguments.add_argument("program")
     arguments.add_argument("out")
-    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", "techniques", *OF_SCENES],
-                           metavar="TABLE")
+    arguments.add_argument("tables", nargs="*", default=["scenes", *TABLES, "histogram", *OF_SCENES], metavar="TABLE")
     arguments.add_argument("--presets", nargs="+", default=SCENES, help="of `scenes`, `converging` and `estimate`")
     arguments.add_argument("--sky", help="a latitude-longitude map: adds a torus of glass under it to the scenes")
     arguments.add_argument("--size", type=int, default=192)

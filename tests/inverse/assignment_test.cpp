@@ -141,7 +141,7 @@ TEST(Assignment, GivesReceiversBesideEachOtherTheirParts)
 {
   Layout layout = small_layout();
   layout.distances = {150, 155};
-  layout.offsets = {{-80, 0}, {80, 0}};
+  layout.offsets = {{{-80, 0}, {80, 0}}};
   Target gradient;
   for (std::size_t c = 0; c < layout.cell_count(); ++c)
     gradient.push_back(1 + static_cast<double>(c % static_cast<std::size_t>(layout.cells.x)));

@@ -3,8 +3,9 @@
 // the judge's, and how much of the judge's figures is noise.
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
-#include "inverse/engine.h"
+#include "inverse/glass_view.h"
 #include "inverse/judge.h"
+#include "inverse/plan.h"
 #include "inverse/sheet.h"
 #include "optics/colour.h"
 #include "optics/fresnel.h"
@@ -37,9 +38,15 @@ double index_at_nm(double nm)
 /// One facet of a millimetre over cells of a millimetre, and that spectrum.
 Layout one_facet(const std::string& spectrum, double distance = 200)
 {
-  Layout layout{.size = {1, 1}, .thickness = 1, .facets = {1, 1}, .receiver = {200, 200}, .cells = {200, 200}, .distances = {distance}};
-  set_spectrum(layout, lit_by(spectrum));
-  return layout;
+  const Refraction refraction = make_refraction(lit_by(spectrum));
+  return {.size = {1, 1},
+          .thickness = 1,
+          .facets = {1, 1},
+          .n = refraction.n,
+          .spectrum = refraction.spectrum,
+          .receiver = {200, 200},
+          .cells = {200, 200},
+          .distances = {distance}};
 }
 
 Judge judged(const Layout& layout, const Solid& solid, std::uint64_t seed = 1, const std::vector<Target>& targets = {})
@@ -180,7 +187,7 @@ TEST(Colours, AreSeenByTheSpectralEngineToo)
 {
   const auto view_of = [](const preset::Preset& preset) {
     const InversePlan plan = make_plan(preset);
-    return preset::parse_preset(glass_view(plan.layout, plan.targets, preset), "view.json");
+    return preset::parse_preset(glass_view(plan.design->layout, plan.design->targets, preset), "view.json");
   };
   const preset::Preset white = view_of(lit_by(R"("F11")", {R"(inverse.receivers.0.picture={"type": "ring"})"}));
   EXPECT_EQ(white.scene.lights.at(0).spectrum.illuminant, "F11");

@@ -5,6 +5,7 @@
 #include "inverse/assign/footprint.h"
 #include "inverse/assign/squares.h"
 #include "inverse/bending.h"
+#include "inverse/light.h"
 #include "tests/inverse/searches.h"
 
 namespace nephroid::device_facets_test {
@@ -29,10 +30,10 @@ protected:
     made.sun_radius = lit.sun;
     made.scatter = lit.scatter;
     made.free_heights = lit.free_heights;
-    made.offsets = lit.offsets;
+    if (!lit.offsets.empty()) made.offsets = lit.offsets;
     if (lit.band > 0) made.spectrum = test::band(made.n, lit.band);
-    for (std::size_t i = 0; i < made.spectrum.size(); ++i) made.spectrum[i].xyz *= 2 * (static_cast<double>(i) + 0.5) / 400;
-    set_light(made, lit.light, "light");
+    for (std::size_t i = 0; i < made.parts().size(); ++i) made.spectrum->parts[i].xyz *= 2 * (static_cast<double>(i) + 0.5) / 400;
+    made.light = make_illumination(made, lit.light, "light");
     return made;
   }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene that shows an object as glass: what passes the object is stopped.
-#include "inverse/engine.h"
 
-#include "inverse/engine.h"
+#include "inverse/glass_view.h"
+#include "inverse/light.h"
+#include "inverse/plan.h"
 #include "preset/read.h"
 #include "tests/support/test.h"
 
@@ -23,8 +24,8 @@ Masked masked(const std::string& settings)
   const preset::Preset preset =
       preset::parse_preset(R"({"engine": "inverse", "unit": "mm", "scene": {"camera": {}}, "inverse": )" + settings + "}", "p.json");
   const inverse::InversePlan plan = inverse::make_plan(preset);
-  const preset::Preset view = preset::parse_preset(inverse::glass_view(plan.layout, plan.targets, preset), "view.json");
-  Masked made{plan.layout, {}};
+  const preset::Preset view = preset::parse_preset(inverse::glass_view(plan.design->layout, plan.design->targets, preset), "view.json");
+  Masked made{plan.design->layout, {}};
   double column = 0;
   std::vector<Strip> found;
   for (auto object = view.scene.objects.rbegin(); object != view.scene.objects.rend(); ++object) { // strips follow their object

@@ -2,6 +2,7 @@
 // A run takes on other distances, weights and pictures and goes on from the slopes that it has.
 #include "inverse/assign/footprint.h"
 #include "inverse/engine.h"
+#include "inverse/job.h"
 #include "preset/read.h"
 #include "tests/inverse/searches.h"
 #include "tests/support/saved_jobs.h"
@@ -32,7 +33,7 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes)
   for (int i = 0; i < 5; ++i) a.advance(); // in the middle of a sweep
   const std::vector<glm::dvec2> slopes = a.slopes();
   layout.distances = {90, 230};
-  layout.weights = {1, 3};
+  layout.weights = {{1, 3}};
   a.relight();
   EXPECT_EQ(a.slopes(), slopes);
   EXPECT_EQ(a.fraction_done(), 0);
@@ -44,7 +45,7 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes)
         most = *std::max_element(targets[j].begin(), targets[j].end()) * tone;
     for (std::size_t c = 0; c < light.size(); ++c) {
       EXPECT_NEAR(a.light(j)[c], light[c], 1e-4);
-      residual += layout.weights[j] / (most * most) * std::pow(light[c] - tone * targets[j][c], 2);
+      residual += (*layout.weights)[j] / (most * most) * std::pow(light[c] - tone * targets[j][c], 2);
     }
   }
   EXPECT_NEAR(a.residual(), residual, 1e-5 * residual);
@@ -58,7 +59,7 @@ TEST(GoingOn, IsAsBeginningFromThoseSlopes)
 TEST(GoingOn, AWeightBringsItsPictureForward)
 {
   Layout layout = small_layout(), heavy = small_layout();
-  heavy.weights = {20, 1};
+  heavy.weights = {{20, 1}};
   const std::vector<Target> targets = ring_and_disc(layout);
   Assignment a(test::shared_context(), layout, targets, 1), b(test::shared_context(), heavy, targets, 1);
   sweep(a, 4);
@@ -93,6 +94,18 @@ double after_step(job::Job& job, std::int64_t step)
   for (const std::vector<double>& row : snapshot.curves.at(0).rows)
     if (row[0] == static_cast<double>(step)) return row[4];
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+// Which facets' light is misplaced is searched by steps, and only where somebody looks.
+TEST(GoingOn, ASnapshotSearchesNoConflicts)
+{
+  const auto job = job_of(shapes());
+  const auto has_conflict = [&] {
+    return std::ranges::count(job->snapshot().pictures, std::string("conflict"), &job::NamedPicture::name) == 1;
+  };
+  EXPECT_FALSE(has_conflict());
+  while (job->progress().step == 0) job->advance();
+  EXPECT_TRUE(has_conflict());
 }
 
 TEST(GoingOn, ADraggedDistanceIsNearerAfterASweepThanAFreshRun)

@@ -55,7 +55,7 @@ TEST(Judge, LooksBetweenReceiversToo)
 {
   Layout layout{
       .size = {1, 1}, .facets = {1, 1}, .receiver = {80, 80}, .cells = {80, 80}, .distances = {100, 200}, .frames = {400.0 / 3, 500.0 / 3}};
-  layout.offsets = {{-10, 5}, {20, 15}};
+  layout.offsets = {{{-10, 5}, {20, 15}}};
   const glm::dvec2 slope{0.15, 0.1};
   const Solid solid = make_solid(layout, {slope});
   Judge judge(test::shared_context(), layout, solid, 1);
@@ -65,7 +65,7 @@ TEST(Judge, LooksBetweenReceiversToo)
     for (std::size_t c = 0; c < 6400; ++c)
       mean += judge.frame(i)[c] * glm::dvec2(static_cast<double>(c % 80) - 39.5, 39.5 - static_cast<double>(c / 80));
     EXPECT_NEAR(glm::length(mean / total(judge.frame(i)) -
-                            (slope * layout.frames[i] - glm::mix(layout.offsets[0], layout.offsets[1], layout.frames[i] / 100 - 1))),
+                            (slope * layout.frames[i] - glm::mix(layout.offset(0), layout.offset(1), layout.frames[i] / 100 - 1))),
                 0, 0.1);
   }
   EXPECT_EQ(judge.costs({inverse::Target(6400, 1 / 6400.0), inverse::Target(6400, 1 / 6400.0)}).size(), 2u);

@@ -3,6 +3,7 @@
 #include "inverse/bending.h"
 #include "inverse/judge.h"
 #include "inverse/lens/lens.h"
+#include "inverse/light.h"
 #include "tests/support/saved_jobs.h"
 
 #include <glm/gtc/constants.hpp>
@@ -167,7 +168,7 @@ TEST_F(Lens, IsLitFromTheSideAndByALamp)
                              Light{.type = Light::Type::point, .distance_mm = 400, .offset_mm = {30, -20}}}) {
     inverse::Layout lit = layout;
     lit.thickness = 20;
-    inverse::set_light(lit, light, own);
+    lit.light = inverse::make_illumination(lit, light, own);
     const Designed found = designed(lit);
     EXPECT_LT(found.judged.rel_l2, 0.07) << light.tilt_deg << " " << light.distance_mm;
     EXPECT_LT(found.judged.missed, 0.02);
@@ -191,7 +192,7 @@ TEST_F(Lens, MayBeRoundAndOfAnotherSizeThanItsReceiver)
     lit.thickness = 20;
     lit.round = round;
     lit.receiver = receiver;
-    inverse::set_light(lit, light, own);
+    lit.light = inverse::make_illumination(lit, light, own);
     const Designed found = designed(lit);
     const std::string what = fmt::format("{} {} {} {}", round, light.tilt_deg, light.distance_mm, receiver.x);
     EXPECT_LT(found.judged.rel_l2, 0.1) << what;

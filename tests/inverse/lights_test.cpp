@@ -4,6 +4,7 @@
 #include "inverse/bending.h"
 #include "inverse/judge.h"
 #include "inverse/layout.h"
+#include "inverse/light.h"
 #include "optics/fresnel.h"
 #include "tests/inverse/searches.h"
 #include "tests/support/render.h"
@@ -23,7 +24,7 @@ Light lamp(double distance_mm, std::array<double, 2> offset_mm = {0, 0})
 
 Layout with(Layout layout, const Light& light)
 {
-  set_light(layout, light, "own.json");
+  layout.light = make_illumination(layout, light, "own.json");
   return layout;
 }
 
@@ -48,7 +49,7 @@ TEST(Lights, AFacetsSpotIsWhereItsSlopeSays)
       layout = with(layout, light);
       const glm::dvec2 slope{0.1, -0.15};
       const Solid solid = make_solid(layout, {slope});
-      const glm::dvec2 sines = layout.incoming[0].sines;
+      const glm::dvec2 sines = (*layout.light.facets)[0].sines;
       const glm::dvec3 front = entry(layout, {0, 0}, sines), direction = light_ray(layout, front).direction;
       const glm::dvec3 nudge{1e-3, 5e-4, 0}; // off the vertex in the facet's middle
       const WayOut way = follow(test::shared_context(), solid, n, {{front + nudge - 1e-3 * direction, direction}}).front();
@@ -122,7 +123,7 @@ TEST(Lights, AllLightIsAccountedFor)
     Layout layout{.facets = {20, 20}, .distances = {150}};
     layout = with(layout, light);
     double power = 0;
-    for (const Incoming& in : layout.incoming) power += in.power;
+    for (const Incoming& in : layout.incoming()) power += in.power;
     EXPECT_NEAR(power, 400, 1e-9);
     const Solid solid = make_solid(layout, std::vector<glm::dvec2>(400, {-0.1, 0.1}));
     Judge judge(test::shared_context(), layout, solid, 1);
@@ -139,7 +140,7 @@ TEST(Lights, AFacetsPowerIsWhatRaysBring)
 {
   Layout layout{.facets = {40, 40}, .distances = {100}};
   layout = with(layout, tilted(20, 30));
-  for (Incoming& in : layout.incoming) in.around = inverse::facet_gradient({0, 0}, layout.n, in.sines);
+  for (Incoming& in : *layout.light.facets) in.around = inverse::facet_gradient({0, 0}, layout.n, in.sines);
   const double straight = 0.96 * (1 - optics::fresnel_reflectance(std::cos(20 * 3.14159265 / 180), 1, 1.5));
   for (const glm::dvec2& slope : {glm::dvec2(-0.2, 0), {0.2, 0}, {0.4, 0}, {0.1, 0.2}, {0.1, -0.2}, {-0.2, 0.2}, {0.3, 0.3}}) {
     std::mt19937_64 random(1);
@@ -149,7 +150,7 @@ TEST(Lights, AFacetsPowerIsWhatRaysBring)
     for (std::size_t i = 0; i < slopes.size(); ++i) {
       const bool chosen = i % 40 % 5 == 2 && i / 40 % 5 == 2;
       slopes[i] = chosen ? slope : glm::dvec2(uniform(random), uniform(random));
-      if (chosen) believed += facet_power(layout, i, slope) / layout.incoming[i].power;
+      if (chosen) believed += facet_power(layout, i, slope) / (*layout.light.facets)[i].power;
     }
     const Solid solid = make_solid(layout, slopes);
     std::vector<Ray> rays;
@@ -238,7 +239,7 @@ TEST(Lights, ABlurIsWhereRaysAre)
   Layout layout{.size = {1, 1}, .facets = {1, 1}, .receiver = {60, 60}, .cells = {60, 60}, .distances = {100}};
   layout.spectrum = band(1.5, 0.04);
   EXPECT_LT(apart(layout, {0.15, 0.12}), 0.02);
-  layout.spectrum.clear();
+  layout.spectrum.reset();
   layout.sun_radius = 0.012;
   EXPECT_LT(apart(layout, {0.15, 0.12}), 0.05);
 }
@@ -249,9 +250,9 @@ TEST(Lights, AFacetLiesInItsNeighboursShadow)
 {
   Layout layout{.size = {2, 1}, .thickness = 0.1, .facets = {2, 1}, .distances = {100}};
   layout = with(layout, tilted(20, 0));
-  const glm::dvec2 slope = inverse::flat_slope(layout.sines), inside = inverse::slope_inside(layout.sines, layout.n);
+  const glm::dvec2 slope = inverse::flat_slope(layout.light.sines), inside = inverse::slope_inside(layout.light.sines, layout.n);
   const auto power = [&](const glm::dvec2& left) {
-    layout.incoming[0].around = left;
+    (*layout.light.facets)[0].around = left;
     return facet_power(layout, 1, slope);
   };
   const double free = power({-0.4, 0});

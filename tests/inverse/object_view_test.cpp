@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The object as the window shows it while it is designed: light's own ways through it, backwards.
-#include "inverse/engine.h"
+#include "inverse/job.h"
 #include "inverse/object_view.h"
 #include "inverse/sheet.h"
 #include "preset/read.h"

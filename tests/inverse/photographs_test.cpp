@@ -3,6 +3,7 @@
 #include "image/image.h"
 #include "inverse/assign/cost.h"
 #include "inverse/engine.h"
+#include "inverse/job.h"
 #include "inverse/pictures/preview.h"
 #include "inverse/pictures/target.h"
 #include "preset/read.h"
@@ -211,7 +212,8 @@ protected:
     const std::string text = R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"facets": [64, 64], "cells": [32, 32],
       "index": 1.5, "receivers": [{"distance_mm": 200, "picture": {"type": "file", "file": ")" +
                              write(8, 8, greys) + "\"" + more + "}";
-    return make_plan(preset::parse_preset(text + "}", "p.json")).notes;
+    const preset::Preset preset = preset::parse_preset(text + "}", "p.json");
+    return notes_of(preset, Design(preset));
   }
 };
 
@@ -239,7 +241,7 @@ TEST_F(PictureNotes, ALensIsAsDeepInLightFromTheSide)
       const auto job = make_job(p, plan, test::shared_context());
       while (!job->finished()) job->advance();
       const double deep = job::scalar(job->snapshot(), "object", "relief_mm");
-      EXPECT_NEAR(estimated_relief(plan.layout, plan.targets[0]) / deep, 1, 0.1) << light << outline;
+      EXPECT_NEAR(estimated_relief(plan.design->layout, plan.design->targets[0]) / deep, 1, 0.1) << light << outline;
     }
 }
 
@@ -249,12 +251,12 @@ TEST_F(PictureNotes, ALensHasNoGrain)
   preset::Preset p = preset::parse_preset(R"({"engine": "inverse", "scene": {"camera": {}}, "inverse": {"method": "lens",
     "facets": [16, 16], "cells": [64, 64], "index": 1.5, "thickness_mm": 40, "receivers": [{"distance_mm": 300, "picture": {"type": "ring"}}]}})",
                                           "p.json");
-  EXPECT_THAT(make_plan(p).notes, IsEmpty());
+  EXPECT_THAT(notes_of(p, Design(p)), IsEmpty());
   settings(p).scatter_deg = 1;
-  EXPECT_THAT(make_plan(p).notes, ElementsAre(HasSubstr("picture 1 comes hardly closer than")));
+  EXPECT_THAT(notes_of(p, Design(p)), ElementsAre(HasSubstr("picture 1 comes hardly closer than")));
   settings(p).method = Settings::Method::assign;
   settings(p).scatter_deg = 0;
-  EXPECT_THAT(make_plan(p).notes, Contains(HasSubstr("are larger than half a cell")));
+  EXPECT_THAT(notes_of(p, Design(p)), Contains(HasSubstr("are larger than half a cell")));
 }
 
 // The coarse lens is as deep as the one that is made.
@@ -265,8 +267,8 @@ TEST_F(PictureNotes, ALensIsAsDeepAsTheySay)
     "facets": [96, 96], "cells": [48, 48], "index": 1.5, "thickness_mm": 4, "receivers": [{"distance_mm": 300, "picture": {"type": "ring"}}]}})",
                                                 "p.json");
   const InversePlan plan = make_plan(p);
-  const double estimated = estimated_relief(plan.layout, plan.targets[0]);
-  EXPECT_THAT(plan.notes,
+  const double estimated = estimated_relief(plan.design->layout, plan.design->targets[0]);
+  EXPECT_THAT(notes_of(p, *plan.design),
               Contains(HasSubstr(fmt::format("the lens becomes some {:.2g} mm deep, and the object is 4 mm thick", estimated))));
   const auto job = make_job(p, plan, test::shared_context());
   while (job->progress().step < 40 && !job->finished()) job->advance();

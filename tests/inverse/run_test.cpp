@@ -2,7 +2,7 @@
 // Whole runs of engine 3: files, figures, and that a run that was cut goes on with the same bits; every shipped preset with few facets; the
 // shipped QR codes read by zbar; the finished object as glass, rendered by engine 1.
 #include "image/image.h"
-#include "inverse/engine.h"
+#include "inverse/job.h"
 #include "preset/read.h"
 #include "tests/support/program_test.h"
 #include "tests/support/render.h"

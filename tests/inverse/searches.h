@@ -13,12 +13,12 @@ using namespace inverse;
 inline Layout small_layout() { return {.facets = {32, 32}, .cells = {16, 16}, .distances = {100, 200}}; }
 
 /// Light without colours whose indices are spread evenly over this width.
-inline std::vector<LightPart> band(double n, double width)
+inline Spectrum band(double n, double width)
 {
   constexpr int count = 400;
-  std::vector<LightPart> parts;
-  for (int i = 0; i < count; ++i) parts.push_back({n + width * ((i + 0.5) / count - 0.5), glm::dvec3(1.0 / count)});
-  return parts;
+  Spectrum spectrum;
+  for (int i = 0; i < count; ++i) spectrum.parts.push_back({n + width * ((i + 0.5) / count - 0.5), glm::dvec3(1.0 / count)});
+  return spectrum;
 }
 
 inline std::vector<Target> ring_and_disc(const Layout& layout)

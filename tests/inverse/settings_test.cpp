@@ -2,7 +2,7 @@
 // Bad input of engine 3: each a line that says what would work.
 #include "image/image.h"
 #include "inverse/bending.h"
-#include "inverse/engine.h"
+#include "inverse/plan.h"
 #include "preset/read.h"
 #include "tests/support/test.h"
 
@@ -33,7 +33,7 @@ protected:
   }
 };
 
-TEST_F(InverseSettings, TakesADefault) { EXPECT_EQ(inverse::make_plan(read()).targets.size(), 1u); }
+TEST_F(InverseSettings, TakesADefault) { EXPECT_EQ(inverse::make_plan(read()).design->targets.size(), 1u); }
 
 // 3 degrees were judged to take 4 % of the light of inverse/shapes, whose nearest receiver is as far: the estimate is 2 tan(3 degrees) g,
 // where g = .25 / (1.5 sqrt(1 + .25^2) - 1) is the gradient that sends light a quarter of the receiver aside: 4.8 %. A facet rises by .36
@@ -41,7 +41,8 @@ TEST_F(InverseSettings, TakesADefault) { EXPECT_EQ(inverse::make_plan(read()).ta
 TEST_F(InverseSettings, AWorkshopIsWarnedBeforeTheRun)
 {
   const auto notes = [&](const preset::Overrides& overrides) {
-    return fmt::format("{}", fmt::join(inverse::make_plan(read(overrides)).notes, "\n"));
+    const preset::Preset preset = read(overrides);
+    return fmt::format("{}", fmt::join(inverse::notes_of(preset, inverse::Design(preset)), "\n"));
   };
   EXPECT_THAT(notes({"inverse.draft_deg=3"}), HasSubstr("lean by 3 degrees take some 5 % of the light"));
   EXPECT_THAT(notes({"inverse.layer_mm=0.1"}), HasSubstr("rises by 0.36 mm, 3.6 layers of 0.1 mm"));
@@ -87,7 +88,7 @@ TEST_F(InverseSettings, Index)
   EXPECT_THAT(refusal({"inverse.index=1"}), HasSubstr("is 1, which bends no light; expected another index, such as 1.5"));
   EXPECT_THAT(refusal({R"(inverse.index={"type": "cauchy", "coefficients": [1.0005]})"}), HasSubstr("bends hardly any light"));
   EXPECT_THAT(refusal({"inverse.index=materials/no-such.yml"}), HasSubstr("no-such.yml"));
-  EXPECT_NEAR(inverse::make_plan(read({"inverse.index=PMMA-Szczurowski"})).layout.n, 1.49, 0.01);
+  EXPECT_NEAR(inverse::make_plan(read({"inverse.index=PMMA-Szczurowski"})).design->layout.n, 1.49, 0.01);
 }
 
 TEST_F(InverseSettings, Lights)
@@ -102,16 +103,16 @@ TEST_F(InverseSettings, Lights)
               AllOf(HasSubstr("/inverse/light: comes so much from the side"), HasSubstr("a smaller thickness_mm")));
   // Straight on it may also be that some facets reach no receiver: others do.
   EXPECT_NO_THROW(inverse::make_plan(read({"inverse.receiver_mm=[10, 10]", "inverse.receivers.0.distance_mm=30"})));
-  const Layout parallel = inverse::make_plan(read()).layout,
-               tilted = inverse::make_plan(read({R"(inverse.light={"type": "parallel", "tilt_deg": 10, "turn_deg": 90})"})).layout,
-               lamp = inverse::make_plan(read({R"(inverse.light={"type": "point", "distance_mm": 500})"})).layout;
-  EXPECT_TRUE(parallel.incoming.empty()); // left out: one direction for all
-  EXPECT_NEAR(tilted.incoming[0].sines.y, std::sin(3.14159265 / 18), 1e-6);
+  const Layout parallel = inverse::make_plan(read()).design->layout,
+               tilted = inverse::make_plan(read({R"(inverse.light={"type": "parallel", "tilt_deg": 10, "turn_deg": 90})"})).design->layout,
+               lamp = inverse::make_plan(read({R"(inverse.light={"type": "point", "distance_mm": 500})"})).design->layout;
+  EXPECT_TRUE(!parallel.light.facets); // left out: one direction for all
+  EXPECT_NEAR((*tilted.light.facets)[0].sines.y, std::sin(3.14159265 / 18), 1e-6);
   EXPECT_LT(lamp.incoming[0].sines.x, -0.05);
   // A constant index has no colours; a dispersive one has them only where the light has a band.
-  EXPECT_TRUE(inverse::make_plan(read({"inverse.band_nm=100"})).layout.spectrum.empty());
-  EXPECT_TRUE(inverse::make_plan(read({"inverse.index=N-SF11"})).layout.spectrum.empty());
-  EXPECT_FALSE(inverse::make_plan(read({"inverse.index=N-SF11", "inverse.band_nm=100"})).layout.spectrum.empty());
+  EXPECT_FALSE(inverse::make_plan(read({"inverse.band_nm=100"})).design->layout.spectrum);
+  EXPECT_FALSE(inverse::make_plan(read({"inverse.index=N-SF11"})).design->layout.spectrum);
+  EXPECT_TRUE(inverse::make_plan(read({"inverse.index=N-SF11", "inverse.band_nm=100"})).design->layout.spectrum);
 }
 
 // A receiver of 600 mm over 50 mm: the corners of its ring are 0.3 * 600 - 50 mm beside an object of 100 mm.
@@ -201,7 +202,7 @@ TEST_F(InverseSettings, ConstraintsOfAWorkshop)
 // A tilt of 20 degrees bends light by asin(1.5 sin 20) - 20 = 10.87 degrees; half a relief of 0.4 mm over half a diagonal of 0.552 mm.
 TEST_F(InverseSettings, ConstraintsLimitTheSlopes)
 {
-  const auto limit = [&](const preset::Overrides& set) { return usable_slope(inverse::make_plan(read(set)).layout); };
+  const auto limit = [&](const preset::Overrides& set) { return usable_slope(inverse::make_plan(read(set)).design->layout); };
   EXPECT_NEAR(limit({"inverse.max_slope_deg=20"}), std::tan(10.866 * 3.14159265 / 180), 1e-5);
   const double tilt = std::atan(0.2 / (0.78125 * std::sqrt(0.5)));
   EXPECT_NEAR(limit({"inverse.max_relief_mm=0.4"}), std::tan(std::asin(1.5 * std::sin(tilt)) - tilt), 1e-9);
@@ -225,15 +226,15 @@ TEST_F(InverseSettings, APictureFileFitsTheReceiver)
   const auto plan = inverse::make_plan(read({"inverse.receivers.0.picture=" + (folder.path() / "p.exr").string(), "inverse.cells=[4, 4]"}));
   const double low = 0.5 / 8, high = 1.5 / 8;
   const std::vector<double> rows{0, 0, 0, 0, low, low, high, high, low, low, high, high, 0, 0, 0, 0};
-  ASSERT_EQ(plan.targets[0].size(), rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(plan.targets[0][i], rows[i], 1e-6) << i;
+  ASSERT_EQ(plan.design->targets[0].size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(plan.design->targets[0][i], rows[i], 1e-6) << i;
 }
 
 // A disc of radius r covers pi r^2 of a receiver, and a gradient's mean is half its end.
 TEST_F(InverseSettings, DrawingsCoverWhatTheyShould)
 {
   const auto lit = [&](const std::string& picture) {
-    const auto target = inverse::make_plan(read({"inverse.receivers.0.picture=" + picture})).targets[0];
+    const auto target = inverse::make_plan(read({"inverse.receivers.0.picture=" + picture})).design->targets[0];
     double most = 0;
     for (const double t : target) most = std::max(most, t);
     return 1 / (most * 4096); // the mean where the brightest cell is 1

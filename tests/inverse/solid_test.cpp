@@ -2,6 +2,7 @@
 // The object is one closed solid, whatever its facets are; the files it is written to.
 #include "inverse/bending.h"
 #include "inverse/facets/files.h"
+#include "inverse/facets/heights.h"
 #include "inverse/facets/solid.h"
 #include "tests/inverse/sound.h"
 

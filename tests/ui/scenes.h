@@ -3,7 +3,7 @@
 // whose scene is loaded, so that a click finds something and panels know what the glass sees.
 #pragma once
 #include "fake_job.h"
-#include "inverse/engine.h"
+#include "inverse/job.h"
 #include "tests/support/render.h"
 #include "ui/shell/panels.h"
 #include "ui/view/pinhole.h"

@@ -161,14 +161,23 @@ TEST(Importance, EveryCausticObjectCountsAlike)
   EXPECT_NEAR(result.surroundings[0].share, 0.5, 0.003);
 }
 
-TEST(Importance, OfAMirrorTakesItsLargestReflectance)
+// (4.15) has m_i(lambda): a gold wall takes u from blue and leaves it to red, just as a diffuse one of its reflectance does.
+TEST(Importance, OfAMirrorGoesByItsReflectanceAtEachWavelength)
 {
-  preset::Material copper = check::mirror(0);
-  copper.reflectance.type = preset::Reflectance::Type::table;
-  copper.reflectance.table = {{400, 0.3}, {550, 0.5}, {700, 0.95}};
-  const WavelengthImportance result = importance_of(ball_in_a_room(copper));
-  expect_near(result.u, normalised_product(optics::illuminant("F2"), optics::cie_1931().y), 1e-12);
-  EXPECT_NEAR(result.surroundings.at(0).lightness, 116 * std::cbrt(0.95) - 16, 1e-9);
+  preset::Material gold = check::mirror(0);
+  gold.reflectance.type = preset::Reflectance::Type::table;
+  gold.reflectance.table = {{380, 0.38}, {480, 0.38}, {560, 0.82}, {780, 0.97}};
+  const WavelengthImportance result = importance_of(ball_in_a_room(gold));
+  const auto over_white = [&](int nm) { // what the wall makes of light and eye
+    const auto w = static_cast<std::size_t>(nm - 380);
+    return result.u[w] / (optics::illuminant("F2")[w] * optics::cie_1931().y[w]);
+  };
+  EXPECT_NEAR(over_white(450) / over_white(560), 0.38 / 0.82, 1e-9);
+  EXPECT_NEAR(over_white(670) / over_white(560), 0.895 / 0.82, 1e-9); // halfway from 560 to 780 nm
+  gold.type = preset::Material::Type::diffuse;
+  const WavelengthImportance matt = importance_of(ball_in_a_room(gold));
+  EXPECT_EQ(result.u, matt.u);
+  EXPECT_EQ(result.surroundings.at(0).lightness, matt.surroundings.at(0).lightness);
 }
 
 // Where mirrors throw the caustics, what they see around them counts and not they themselves.

@@ -5,6 +5,7 @@
 #include "image/image.h"
 #include "inverse/assign/cost.h"
 #include "inverse/engine.h"
+#include "inverse/plan.h"
 #include "inverse/sheet.h"
 #include "preset/origins.h"
 #include "preset/read.h"
@@ -28,26 +29,25 @@ void show_pictures(const PicturesOptions& options)
 {
   const preset::Preset preset = preset::read_preset(options.preset, options.overrides);
   const InversePlan plan = preset::at_origins(preset, [&] {
-    if (engine::engine_of(preset).settings != inverse::engine.settings)
-      throw bad_input(Place(preset.source, "/engine"),
-                      fmt::format("is '{}', which casts no pictures", engine::name_of(engine::engine_of(preset))), "expected 'inverse'");
+    engine::require_engine(preset, inverse::engine, "casts no pictures");
     return make_plan(preset);
   });
+  const Design& design = *plan.design;
   std::vector<std::vector<Captioned>> columns;
-  for (std::size_t j = 0; j < plan.targets.size(); ++j) {
-    const Target &target = plan.targets[j], &best = plan.best[j];
+  for (std::size_t j = 0; j < design.targets.size(); ++j) {
+    const Target &target = design.targets[j], &best = design.best()[j];
     const double most = *std::max_element(target.begin(), target.end()), off = cost_of(target, best, 1).rel_l2;
-    const auto wanted = grey_picture(target, 1 / most, plan.layout.cells), at_best = grey_picture(best, 1 / most, plan.layout.cells);
-    columns.push_back({{wanted, fmt::format("wanted at {} mm", plan.layout.distances[j])},
+    const auto wanted = grey_picture(target, 1 / most, design.layout.cells), at_best = grey_picture(best, 1 / most, design.layout.cells);
+    columns.push_back({{wanted, fmt::format("wanted at {} mm", design.layout.distances[j])},
                        {at_best, fmt::format("at best: {:.3f} off", off)},
                        {difference_picture(*wanted, *at_best), "red: too much, blue: too little"}});
     fmt::print("picture {} at {} mm: at best {:.3f} off (rel_l2), brightest {:.1f} times an even picture\n", j + 1,
-               plan.layout.distances[j], off, most * static_cast<double>(target.size()));
+               design.layout.distances[j], off, most * static_cast<double>(target.size()));
   }
-  for (const std::string& note : plan.notes) fmt::print(stderr, "note: {}\n", note);
+  for (const std::string& note : notes_of(preset, design)) fmt::print(stderr, "note: {}\n", note);
   if (options.picture.empty()) return;
   const auto [width, height] = preset.scene.camera.resolution;
-  image::write_png(options.picture, width, height, sheet(columns, plan.layout.receiver, width, height)->rgb);
+  image::write_png(options.picture, width, height, sheet(columns, design.layout.receiver, width, height)->rgb);
 }
 
 } // namespace

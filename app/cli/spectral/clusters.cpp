@@ -10,6 +10,7 @@
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "scene/materials.h"
+#include "spectral/engine.h"
 #include "spectral/settings.h"
 
 #include <nlohmann/json.hpp>
@@ -59,6 +60,7 @@ std::string chosen_material(const preset::Preset& preset, const std::string& wan
 Task preset_task(const ClusterOptions& options)
 {
   const preset::Preset preset = preset::read_preset(options.preset, options.overrides);
+  preset::at_origins(preset, [&] { engine::require_engine(preset, spectral::engine, "clusters no wavelengths"); });
   const std::string name = chosen_material(preset, options.material);
   const preset::Dispersion& dispersion = preset.scene.materials.at(name).dispersion;
   const Place where = Place(preset.source) / "scene" / "materials" / name / "dispersion";

@@ -8,6 +8,7 @@
 #include "photons/clusters/clusters.h"
 #include "preset/origins.h"
 #include "preset/read.h"
+#include "spectral/engine.h"
 #include "spectral/settings.h"
 #include "tracing/omissions.h"
 
@@ -137,7 +138,10 @@ void print_importance(const ImportanceOptions& options)
 {
   std::vector<Answer> answers; // all before the first is printed: one of a sweep may be refused
   for (const preset::Preset& preset : preset::read_presets(options.preset, options.overrides))
-    answers.push_back(preset::at_origins(preset, [&] { return answer_for(preset, options.method); }));
+    answers.push_back(preset::at_origins(preset, [&] {
+      engine::require_engine(preset, spectral::engine, "weighs no wavelengths");
+      return answer_for(preset, options.method);
+    }));
   for (const Answer& answer : answers) options.json ? print_json(answer) : print_text(answer);
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <span>
 #include <string>
 
 namespace nephroid::environment {
@@ -39,10 +38,9 @@ std::vector<shared::DeviceEightSets> eights_of(const std::vector<TurnedSet>& set
 
 } // namespace
 
-Caustics::Caustics(const Bake& bake, const compute::Context& context, Technique technique)
-    : context_(context), technique_(technique),
-      directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
-                                                                      static_cast<float>(bake.size * bake.size), 0},
+Caustics::Caustics(const Bake& bake, const compute::Context& context)
+    : context_(context), directions_(static_cast<int>(bake.directions.size())), spheres_{static_cast<int>(bake.radii.size()), bake.map.side,
+                                                                                         static_cast<float>(bake.size * bake.size), 0},
       way_of_(compute::Buffer(context, "ways", all_ways())),
       radii_(compute::Buffer(context, "radii", std::vector<float>(bake.radii.begin(), bake.radii.end()))), sets_(context, "turned sets", 1)
 {
@@ -62,11 +60,9 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context, Technique 
   compiled_ = compute::Buffer<float>(context, "compiled spheres", 3 * bake.direction_texels());
 }
 
-std::uint64_t Caustics::bytes(const Bake& bake, Technique technique)
+std::uint64_t Caustics::bytes(const Bake& bake)
 {
-  const std::size_t texels = bake.direction_texels(), directions = bake.directions.size(),
-                    channels = static_cast<std::size_t>(bake.channels);
-  return sizeof(std::uint16_t) * directions * texels * (channels + 1) + (technique == Technique::compiled ? 3 * sizeof(float) * texels : 0);
+  return sizeof(std::uint16_t) * bake.directions.size() * bake.direction_texels() * (static_cast<std::size_t>(bake.channels) + 1);
 }
 
 std::uint64_t Caustics::air_bytes(const Bake& bake, int side)
@@ -94,21 +90,6 @@ void Caustics::set_lights(const std::vector<DistantLight>& lights, const glm::dm
     air_.object_x = tracing::to_float4(rotation[0]);
     air_.object_y = tracing::to_float4(rotation[1]);
     air_.object_z = tracing::to_float4(rotation[2]);
-    set_count_ = static_cast<int>(sets.size());
-    if (technique_ != Technique::compiled) return;
-    const auto count = static_cast<std::uint32_t>(compiled_.size() / 3);
-    compile_.run(count, group,
-                 {{"stored", stored_},
-                  {"sets", sets_},
-                  {"set_count", set_count_},
-                  {"radii", radii_},
-                  {"spheres", spheres_},
-                  {"object_x", air_.object_x},
-                  {"object_y", air_.object_y},
-                  {"object_z", air_.object_z},
-                  {"count", count},
-                  {"compiled", compiled_}});
-    context_.finish();
   });
 }
 
@@ -138,16 +119,14 @@ void Caustics::compile_air(int side)
 void Caustics::cast(const CastTexels& texels)
 {
   timed([&] {
-    std::vector<compute::Argument> arguments = texels.arguments();
-    if (technique_ == Technique::eight_sets)
-      arguments.insert(arguments.end(),
-                       {{"stored", stored_}, {"ways", ways_}, {"way_of", way_of_}, {"sets", sets_}, {"eights", used_eights_}});
-    else if (technique_ == Technique::direct)
-      arguments.insert(arguments.end(), {{"stored", stored_}, {"sets", sets_}, {"set_count", set_count_}});
-    else
-      arguments.insert(arguments.end(),
-                       {{"compiled", compiled_}, {"object_x", air_.object_x}, {"object_y", air_.object_y}, {"object_z", air_.object_z}});
-    cast_.run(texels.count, group, arguments, {{"radii", radii_}, {"spheres", spheres_}});
+    cast_.run(texels.count, group, texels.arguments(),
+              {{"stored", stored_},
+               {"ways", ways_},
+               {"way_of", way_of_},
+               {"radii", radii_},
+               {"sets", sets_},
+               {"eights", used_eights_},
+               {"spheres", spheres_}});
     context_.finish();
   });
 }

@@ -4,7 +4,6 @@
 #include "compute/compute.h"
 #include "environment/bake/bake.h"
 #include "environment/light/distant_lights.h"
-#include "environment/settings.h"
 #include "kernels/environment/render_types.h"
 #include "tracing/slices.h"
 
@@ -34,10 +33,10 @@ struct CastTexels {
 class Caustics {
 public:
   /// bake outlives it. Throws failed where the device has not enough memory.
-  Caustics(const Bake& bake, const compute::Context& context, Technique technique = Technique::eight_sets);
+  Caustics(const Bake& bake, const compute::Context& context);
 
   /// On a device.
-  static std::uint64_t bytes(const Bake& bake, Technique technique);
+  static std::uint64_t bytes(const Bake& bake);
   /// Of what compile_air() makes.
   static std::uint64_t air_bytes(const Bake& bake, int side);
 
@@ -78,7 +77,7 @@ private:
   int set_count_ = 0, used_eights_ = 0; ///< of the buffer's
   compute::Buffer<float> compiled_;     ///< [sphere][texel of the stored form][3], by Technique::compiled
   double seconds_ = 0;
-  compute::Kernel cast_, compile_, compile_air_; ///< compile_ is of Technique::compiled
+  compute::Kernel cast_, compile_air_;
 };
 
 } // namespace nephroid::environment

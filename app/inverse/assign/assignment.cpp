@@ -5,6 +5,7 @@
 #include "inverse/assign/footprint.h"
 #include "inverse/assign/squares.h"
 #include "inverse/bending.h"
+#include "inverse/facets/heights.h"
 #include "inverse/facets/solid.h"
 #include "inverse/uniform.h"
 
@@ -21,7 +22,7 @@ Assignment::Assignment(const compute::Context& context, const Layout& layout, co
   std::mt19937_64 random(seed_);
   std::vector<glm::dvec2> slopes(layout.facet_count());
   for (std::size_t i = 0; i < slopes.size(); ++i) {
-    const std::size_t j = layout.distances.size() - 1 - i % (layout.offsets.empty() ? 1 : layout.distances.size());
+    const std::size_t j = layout.distances.size() - 1 - i % (layout.offsets ? layout.distances.size() : 1);
     const glm::dvec2 to = layout.offset(j) + (glm::dvec2(uniform(random), uniform(random)) - 0.5) * layout.receiver;
     slopes[i] = nearest_reachable((to - layout.middle(i)) / layout.distances[j], layout.n, layout.sines_on(i), layout.steepest);
   }
@@ -33,9 +34,9 @@ Assignment::Assignment(const compute::Context& context, const Layout& layout, co
 
 void Assignment::relight()
 {
-  std::vector<Incoming> incoming = std::move(layout_.incoming);
+  Illumination light = std::move(layout_.light);
   layout_ = given_;
-  layout_.incoming = std::move(incoming);
+  layout_.light = std::move(light);
   aim();
   put(std::vector(slopes()));
   settle();
@@ -73,11 +74,13 @@ void Assignment::put(const std::vector<glm::dvec2>& slopes)
 /// neighbours as these are now, in whose shadows they lie. Each picture is as bright as the light lets it be that reaches its receiver.
 void Assignment::settle()
 {
-  if (layout_.free_heights || !layout_.incoming.empty()) {
+  if (layout_.free_heights || layout_.light.facets) {
     const std::vector<glm::dvec2> now = slopes();
     if (layout_.free_heights) heights_ = heights_of(layout_, now);
-    for (std::size_t i = 0; i < layout_.incoming.size(); ++i)
-      layout_.incoming[i].around = facet_gradient(now[i], layout_.n, layout_.incoming[i].sines);
+    for (std::size_t i = 0; i < layout_.incoming().size(); ++i) {
+      Incoming& in = (*layout_.light.facets)[i];
+      in.around = facet_gradient(now[i], layout_.n, in.sines);
+    }
     facets_.set_incoming(layout_);
     put(now);
   }
@@ -168,10 +171,11 @@ void Assignment::state(State& state)
   if (state.is_read()) aim();
   facets_.state(state);
   if (layout_.free_heights) state.items(heights_);
-  for (Incoming& in : layout_.incoming) {
-    state.value(in.around.x);
-    state.value(in.around.y);
-  }
+  if (layout_.light.facets)
+    for (Incoming& in : *layout_.light.facets) {
+      state.value(in.around.x);
+      state.value(in.around.y);
+    }
   state.value(converged_);
   bool refines = refinement_.has_value();
   state.value(refines);

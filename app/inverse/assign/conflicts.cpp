@@ -73,7 +73,7 @@ std::vector<glm::dvec2> ConflictSearch::best_places(std::size_t receiver) const
 {
   const glm::ivec2 cells = layout_.cells, step = (cells + 63) / 64;
   const double distance = layout_.distances[receiver],
-               lamp = layout_.lamp ? distance / (layout_.lamp->z - layout_.thickness + layout_.thickness / layout_.n) : 0;
+               lamp = layout_.light.lamp ? distance / (layout_.light.lamp->z - layout_.thickness + layout_.thickness / layout_.n) : 0;
   const auto parts = [&](int axis, int at) { // of a beam on the middle of a cell: the first cell, and the part on each
     const double cell = layout_.cell()[axis], width = layout_.facet()[axis] * (1 + lamp) / cell,
                  blur = blur_width(layout_, distance) / cell;

@@ -104,7 +104,7 @@ shared::DeviceLayout device_layout(const Layout& l)
                             .one_over_straight = number(1 / transmitted({0, 0}, l.n)),
                             .sun_radius = number(l.sun_radius),
                             .scatter = number(l.scatter),
-                            .spreads = l.lamp ? number(1 / (l.lamp->z - l.thickness + l.thickness / l.n)) : 0,
+                            .spreads = l.light.lamp ? number(1 / (l.light.lamp->z - l.thickness + l.thickness / l.n)) : 0,
                             .free_heights = l.free_heights,
                             .index_spread = number(index_spread(l)),
                             .index_levels = 1,
@@ -138,8 +138,8 @@ shared::DeviceLayout device_layout(const Layout& l)
 std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
 {
   std::vector<shared::DeviceIncoming> incoming;
-  incoming.reserve(layout.incoming.size());
-  for (const Incoming& in : layout.incoming) {
+  incoming.reserve(layout.incoming().size());
+  for (const Incoming& in : layout.incoming()) {
     shared::DeviceIncoming made{};
     for (int i = 0; i < 2; ++i) {
       made.sines[i] = static_cast<float>(in.sines[i]);
@@ -154,7 +154,7 @@ std::vector<shared::DeviceIncoming> incoming_of(const Layout& layout)
 
 compute::Defines facet_defines(const Layout& layout)
 {
-  return {{"NEPHROID_INCOMING", layout.incoming.empty() ? "0" : "1"},
+  return {{"NEPHROID_INCOMING", layout.light.facets ? "1" : "0"},
           {"NEPHROID_SPREAD", layout.blurs() ? "1" : "0"},
           {"NEPHROID_SMOOTHS", layout.smoothing > 0 ? "1" : "0"}};
 }
@@ -304,7 +304,7 @@ std::uint64_t DeviceFacets::bytes(const Layout& l)
 {
   const std::uint64_t cells = l.cell_count() * l.distances.size();
   return l.facet_count() * (sizeof(float) + 2 * sizeof(Pair) + 2 * sizeof(std::uint32_t)) +
-         l.incoming.size() * sizeof(shared::DeviceIncoming) + cells * (sizeof(std::int64_t) + 5 * sizeof(float));
+         l.incoming().size() * sizeof(shared::DeviceIncoming) + cells * (sizeof(std::int64_t) + 5 * sizeof(float));
 }
 
 void DeviceFacets::state(State& state)

@@ -47,7 +47,7 @@ LitPart lit_part(const Layout& layout, std::size_t facet, const glm::dvec2& insi
     glm::ivec2 to = at;
     to[axis] += axis == 0 ? side : -side; // rows count downwards
     if (to.x < 0 || to.y < 0 || to.x >= layout.facets.x || to.y >= layout.facets.y) return 0.0;
-    const glm::dvec2 h = layout.incoming[index_at(to.x, to.y, layout.facets.x)].around;
+    const glm::dvec2 h = layout.incoming()[index_at(to.x, to.y, layout.facets.x)].around;
     const int other = 1 - axis;
     return mean_above_0(light[axis] * (g[axis] + h[axis]) / 2, light[axis] * (g[other] - h[other]) * size[other] / size[axis]) /
            std::max(0.1, 1 + glm::dot(light, g));
@@ -104,14 +104,14 @@ void part_disc(const glm::dmat2& spread, int points, Blur& blur)
 Blur blur_of(const Layout& layout, const Incoming& in, const glm::dvec2& slope, double fine)
 {
   Blur blur;
-  if (!(layout.scatter > 0 || layout.sun_radius > 0 || !layout.spectrum.empty())) return blur;
+  if (!(layout.scatter > 0 || layout.sun_radius > 0 || layout.spectrum)) return blur;
   const SlopeChange change = slope_change(slope, layout.n, in.sines);
   // The disc is across the light: of its radius r, sines have the covariance r^2 / 4 (1 - sines sines^T).
   const double sun = layout.sun_radius / 2, cosine = std::sqrt(1 - glm::dot(in.sines, in.sines));
   const glm::dmat2 disc = sun * change.by_sines * (glm::dmat2(1) - glm::outerProduct(in.sines, in.sines) / (1 + cosine));
   const glm::dmat2 both = disc * glm::transpose(disc) + glm::dmat2(layout.scatter * layout.scatter); // covariance
   const bool is_wide = std::sqrt(12 * (both[0][0] + both[1][1]) / 2) > wide_in_cells * fine;
-  if (!layout.spectrum.empty()) part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
+  if (layout.spectrum) part_colours(layout, change.by_index, piece_in_cells * fine, is_wide ? Beams::most / 4 : Beams::most, blur);
   if (is_wide) {
     glm::dmat2 root(0); // of the covariance: root root^T
     root[0][0] = std::sqrt(both[0][0]);
@@ -133,12 +133,12 @@ glm::dvec2 index_ends(const Layout& layout)
   constexpr double beyond = 1e-3;
   glm::dvec2 ends(std::numeric_limits<double>::infinity(), 0);
   double before = 0;
-  for (const LightPart& piece : layout.spectrum) {
+  for (const LightPart& piece : layout.parts()) {
     const double behind = before + piece.xyz.y;
     if (behind >= beyond && before <= 1 - beyond) ends = {std::min(ends[0], piece.n), std::max(ends[1], piece.n)};
     before = behind;
   }
-  return layout.spectrum.empty() ? glm::dvec2(layout.n) : ends;
+  return layout.spectrum ? ends : glm::dvec2(layout.n);
 }
 
 } // namespace
@@ -156,14 +156,14 @@ IndexGroups index_groups(const Layout& layout, int count)
   const double length = (ends[1] - ends[0]) / count;
   IndexGroups groups{std::vector<double>(groups_count), std::vector<double>(groups_count), 0};
   double squares = 0;
-  for (const LightPart& piece : layout.spectrum) {
+  for (const LightPart& piece : layout.parts()) {
     const double n = std::clamp(piece.n, ends[0], ends[1]), over = n - layout.n;
     const std::size_t k = length > 0 ? std::min(groups_count - 1, static_cast<std::size_t>((n - ends[0]) / length)) : 0;
     groups.over[k] += piece.xyz.y * over;
     groups.parts[k] += piece.xyz.y;
     squares += piece.xyz.y * over * over;
   }
-  if (layout.spectrum.empty()) groups.parts[0] = 1;
+  if (!layout.spectrum) groups.parts[0] = 1;
   for (std::size_t k = 0; k < groups_count; ++k) {
     if (groups.parts[k] > 0) groups.over[k] /= groups.parts[k];
     squares -= groups.parts[k] * groups.over[k] * groups.over[k];
@@ -200,16 +200,16 @@ double blur_width(const Layout& layout, double distance)
 
 Beams beams_of(const Layout& layout, std::size_t facet, const glm::dvec2& slope, std::size_t receiver, double height)
 {
-  const Incoming in = layout.incoming.empty() ? Incoming{} : layout.incoming[facet];
+  const Incoming in = layout.light.facets ? layout.incoming()[facet] : Incoming{};
   const glm::dvec2 g = facet_gradient(slope, layout.n, in.sines), size = layout.facet(), cell = layout.cell();
   const double distance = layout.distances[receiver] + height;
   const Blur blur = blur_of(layout, in, slope, std::min(cell.x, cell.y) / distance);
   glm::dmat2 map = glm::dmat2(1) + glm::outerProduct(slope, g);
   LitPart lit;
-  if (!layout.incoming.empty()) {
+  if (layout.light.facets) {
     const glm::dvec2 inside = slope_inside(in.sines, layout.n);
     if (!layout.free_heights) lit = lit_part(layout, facet, inside, slope, g);
-    if (layout.lamp)
+    if (layout.light.lamp)
       map += distance * slope_change(slope, layout.n, in.sines).by_sines * in.spread * (glm::dmat2(1) + glm::outerProduct(inside, g));
   }
   const glm::dvec2 at = layout.in_cells(layout.middle(facet) - layout.offset(receiver) + map * (lit.middle * size) + slope * distance),
@@ -266,8 +266,8 @@ Footprint footprint(const Layout& layout, std::size_t facet, const glm::dvec2& s
 double facet_power(const Layout& layout, std::size_t facet, const glm::dvec2& slope)
 {
   const double n = layout.n;
-  if (layout.incoming.empty()) return transmitted(slope, n) / transmitted({0, 0}, n);
-  const Incoming& in = layout.incoming[facet];
+  if (!layout.light.facets) return transmitted(slope, n) / transmitted({0, 0}, n);
+  const Incoming& in = layout.incoming()[facet];
   const glm::dvec2 g = facet_gradient(slope, n, in.sines), inside = slope_inside(in.sines, n);
   const glm::dvec2 lit = layout.free_heights ? glm::dvec2(1) : lit_part(layout, facet, inside, slope, g).size;
   return in.power * (1 + glm::dot(inside, g)) * lit.x * lit.y * transmitted(slope, n, in.sines) / transmitted({0, 0}, n);

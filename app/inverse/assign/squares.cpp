@@ -10,7 +10,7 @@ std::vector<double> picture_weights(const Layout& layout, const std::vector<Targ
   std::vector<double> weights;
   for (std::size_t j = 0; j < targets.size(); ++j) {
     const double most = *std::max_element(targets[j].begin(), targets[j].end()) * static_cast<double>(layout.facet_count());
-    weights.push_back((layout.weights.empty() ? 1 : layout.weights[j]) / (most * most));
+    weights.push_back((layout.weights ? (*layout.weights)[j] : 1) / (most * most));
   }
   return weights;
 }

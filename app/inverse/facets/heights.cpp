@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/facets/solid.h"
+#include "inverse/facets/heights.h"
 
 #include "inverse/bending.h"
 #include "inverse/poisson.h"

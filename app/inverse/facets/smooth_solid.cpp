@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "inverse/bending.h"
 #include "inverse/facets/outline.h"
+#include "inverse/light.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>

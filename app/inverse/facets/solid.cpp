@@ -3,6 +3,7 @@
 
 #include "inverse/bending.h"
 #include "inverse/facets/draft.h"
+#include "inverse/facets/heights.h"
 
 #include <glm/gtc/constants.hpp>
 

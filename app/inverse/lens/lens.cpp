@@ -6,6 +6,7 @@
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 #include "inverse/facets/smooth_solid.h"
+#include "inverse/light.h"
 
 #include <fmt/format.h>
 
@@ -79,7 +80,7 @@ Grid blurred(const Grid& light)
 std::vector<double> flat_powers(const Layout& layout)
 {
   std::vector<double> powers(layout.facet_count(), 1);
-  for (std::size_t i = 0; i < layout.incoming.size(); ++i) powers[i] = layout.incoming[i].power;
+  for (std::size_t i = 0; i < layout.incoming().size(); ++i) powers[i] = layout.incoming()[i].power;
   return powers;
 }
 
@@ -97,12 +98,14 @@ Lens::Lens(const Layout& layout, const Target& target, double mesh_error, Place 
 {
   fine_.facets *= parts_of_facet(layout);
   fine_.free_heights = true; // no wall stands in the light
-  fine_.incoming.clear();
-  for (std::size_t i = 0; i < fine_.facet_count() && !layout.incoming.empty(); ++i) {
-    const glm::dvec2 p = fine_.middle(i);
-    fine_.incoming.push_back(incoming_at(p));
-    if (const double facet = part_within(layout, layout.middle(facet_at(p)), layout.facet()); layout.round && facet > 0)
-      fine_.incoming.back().power *= part_within(fine_, p, fine_.facet()) / facet;
+  if (fine_.light.facets) {
+    fine_.light.facets->clear();
+    for (std::size_t i = 0; i < fine_.facet_count(); ++i) {
+      const glm::dvec2 p = fine_.middle(i);
+      Incoming& in = fine_.light.facets->emplace_back(incoming_at(p));
+      if (const double facet = part_within(layout, layout.middle(facet_at(p)), layout.facet()); layout.round && facet > 0)
+        in.power *= part_within(fine_, p, fine_.facet()) / facet;
+    }
   }
   see();
 }
@@ -111,7 +114,7 @@ std::uint64_t Lens::bytes(const Layout& layout)
 {
   constexpr std::uint64_t grids = 24; // of the transport, the flow, and of light that is added up in blocks
   const auto parts = static_cast<std::uint64_t>(parts_of_facet(layout)), cells = static_cast<std::uint64_t>(most_cells(layout));
-  const std::uint64_t bytes_a_node = sizeof(double) + sizeof(glm::dvec2) + (layout.incoming.empty() ? 0 : sizeof(Incoming));
+  const std::uint64_t bytes_a_node = sizeof(double) + sizeof(glm::dvec2) + (layout.light.facets ? sizeof(Incoming) : 0);
   return layout.facet_count() * parts * parts * bytes_a_node + grids * sizeof(double) * cells * cells;
 }
 
@@ -126,9 +129,9 @@ std::size_t Lens::facet_at(const glm::dvec2& p) const
 /// Of light on a point of the surface, by the facet about it.
 Incoming Lens::incoming_at(const glm::dvec2& p, double height) const
 {
-  if (layout_.incoming.empty()) return {};
+  if (!layout_.light.facets) return {};
   const std::size_t facet = facet_at(p);
-  Incoming in = layout_.incoming[facet];
+  Incoming in = layout_.incoming()[facet];
   in.sines += in.spread * (p + slope_inside(in.sines, layout_.n) * height - layout_.middle(facet));
   return in;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/lens/lens.h"
+#include "inverse/lens/transport.h"
 
 #include "base/parallel.h"
 

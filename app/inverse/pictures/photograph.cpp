@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture file as light a cell. It is read some rows at a time, so that 20000 x 12000 pixels take no more memory than a small picture.
+#include "inverse/pictures/photograph.h"
+
 #include "image/image.h"
-#include "inverse/pictures/target.h"
 
 #include <glm/gtc/constants.hpp>
 

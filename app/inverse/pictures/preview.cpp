@@ -6,6 +6,7 @@
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 #include "inverse/lens/lens.h"
+#include "inverse/light.h"
 
 #include <fmt/format.h>
 
@@ -181,7 +182,7 @@ double estimated_relief(const Layout& layout, const Target& target)
   const auto reduced = [](const glm::ivec2& from) { return glm::max(from * most / std::max({from.x, from.y, most}), 2); };
   coarse.facets = reduced(layout.facets);
   coarse.cells = reduced(layout.cells);
-  light_facets(coarse);
+  coarse.light.facets = light_on_facets(coarse);
   Target wanted(coarse.cell_count());
   for (std::size_t c = 0; c < target.size(); ++c) wanted[*coarse.cell_at(layout.middle_of_cell(c))] += target[c];
   Lens lens(coarse, wanted, 1, {}); // the mesh is not made

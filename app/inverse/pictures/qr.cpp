@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The only file that includes libqrencode.
-#include "inverse/pictures/target.h"
+#include "inverse/pictures/qr.h"
 
 #include <fmt/format.h>
 #include <qrencode.h>

@@ -2,6 +2,8 @@
 #include "inverse/pictures/target.h"
 
 #include "image/image.h"
+#include "inverse/pictures/photograph.h"
+#include "inverse/pictures/qr.h"
 
 #include <glm/gtc/constants.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inverse/thesis/pipeline.h"
+#include "inverse/thesis/adjust.h"
 
 #include "base/parallel.h"
 #include "inverse/bending.h"

@@ -59,7 +59,7 @@ Sampler::Sampler(const Layout& layout, const std::vector<SamplingTarget>& aims, 
 Sampler::Axis Sampler::axis(std::size_t facet, int along) const
 {
   const double from = layout_.middle(facet)[along], half = layout_.receiver[along] / 2;
-  const double limit = layout_.incoming.empty() ? usable_slope(layout_) : std::numeric_limits<double>::infinity();
+  const double limit = layout_.light.facets ? std::numeric_limits<double>::infinity() : usable_slope(layout_);
   double low = limit, high = -limit;
   for (const double distance : distances_) {
     low = std::min(low, (-half - from) / distance);

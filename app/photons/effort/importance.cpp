@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // u(lambda) = l(lambda) ybar(lambda) sum_i m_i(lambda) L_i ghat_i, (4.15), divided by its largest value. i runs over the materials that
-// diffuse or mirror light.
+// diffuse or mirror light. m_i(lambda) is the largest reflectance over all directions (4.1.2); that of a mirror here is the same in each.
 #include "photons/effort/importance.h"
 
 #include "tracing/targets.h"
@@ -17,15 +17,6 @@ namespace {
 using optics::Spectrum;
 using optics::wavelength_count;
 using Type = scene::Material::Type;
-
-/// m_i. What a mirror sends to the eye depends on where the eye is, so it counts with its largest reflectance at every wavelength:
-/// rather too much work than too little (4.1.2).
-Spectrum reflectance_of(const scene::Material& material)
-{
-  Spectrum m = material.reflectance;
-  if (material.type == Type::mirror) m.fill(*std::ranges::max_element(m));
-  return m;
-}
 
 /// The corners of the box about an object, and its centre. The corners are drawn in by a thousandth: an object that stands on
 /// a floor has corners of its box in the floor, and they are to see it.
@@ -149,7 +140,7 @@ WavelengthImportance importance_of_surroundings(bool geometry, const ImportanceG
   Spectrum reflected{}; // the sum over i
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (!(shares[i] > 0)) continue;
-    const Spectrum m = reflectance_of(materials[i]);
+    const Spectrum& m = materials[i].reflectance;
     const double lightness = white > 0 ? optics::lightness(luminance(light, m) / white) : 0;
     result.surroundings.push_back({static_cast<int>(i), shares[i], lightness});
     for (std::size_t w = 0; w < m.size(); ++w) reflected[w] += m[w] * lightness * shares[i];

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where light has to go so that one picture becomes another on the shortest ways: optimal transport, whose map is the gradient of a
+// potential. So it is the one way that a smooth surface can bend light (Schwartzburg et al. 2014, "High-contrast computational caustic
+// design").
+#pragma once
+#include "base/bytes.h"
+#include "inverse/poisson.h"
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// The back-and-forth method (Jacobs and Leger 2020, "A fast approach to optimal transport"): steps along the gradient of the dual
+/// problem, by turns in its two potentials, in the metric in which the gradient is a solution of Poisson's equation. Lengths are in parts
+/// of the grid's longer side; both pictures are on the same grid of square cells and have the same sum.
+class Transport {
+public:
+  Transport(Grid from, Grid to);
+
+  void advance(); ///< a step in either potential
+  /// Part of the light that the map of the last step did not bring to its cell.
+  double astray() const { return astray_; }
+  /// Where the light at p goes. p and the result are in cells from the first cell's corner.
+  glm::dvec2 map(const glm::dvec2& p) const;
+
+  glm::dvec2 cells() const { return {from_.cols(), from_.rows()}; } ///< across and down
+
+  void state(State& state);
+
+private:
+  struct Side {
+    Grid potential;
+    double step = 1;
+  };
+  void move(Side& side, const Grid& wanted, const Grid& arrived, Side& other);
+  double value() const; ///< of the dual problem
+
+  Grid from_, to_; ///< densities over the domain whose area is the grid's
+  double cell_;
+  Poisson poisson_;
+  // The state. psi is on the side of `from`.
+  Side phi_, psi_;
+  double astray_ = 1;
+};
+
+/// Light of quads whose corners land at these places, in cells of the result, which spreads each sample over the four cells about it.
+/// corners: row by row, one more across and down than `light`. Light beside the result goes to its rim.
+Grid spread(const Grid& light, const std::vector<glm::dvec2>& corners, Eigen::Index rows, Eigen::Index columns);
+
+/// min over y of |x - y|^2 / 2 - f(y), over the middles of cells.
+Grid conjugate(const Grid& f, double cell);
+
+} // namespace nephroid::inverse

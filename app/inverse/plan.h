@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a preset asks an object for, and what a run for it does: method, constraints and blurs, and its memory.
+#pragma once
+#include "inverse/layout.h"
+#include "plan/plan.h"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace nephroid::inverse {
+
+/// Where things stand and which light is wanted. Read once; the plan and its job share it.
+class Design {
+public:
+  /// Reads the index and the pictures. Throws bad_input as make_layout and make_targets.
+  explicit Design(const preset::Preset& preset);
+
+  const Layout layout;
+  const std::vector<Target> targets; ///< of each receiver
+
+  /// How close to each target an object comes at best (pictures/preview.h). The first call works it out, in up to a second.
+  const std::vector<Target>& best() const;
+
+private:
+  Settings settings_;
+  mutable std::once_flag has_best_;
+  mutable std::vector<Target> best_;
+};
+
+struct InversePlan : plan::Plan {
+  std::shared_ptr<const Design> design;
+  std::uint64_t triangles = 0; ///< of the solid, about
+};
+
+/// Without its notes. Throws bad_input as Design, and for a mesh that would be too large.
+InversePlan make_plan(const preset::Preset& preset);
+
+/// What a run of the design should say once; asks how close its pictures come at best.
+std::vector<std::string> notes_of(const preset::Preset& preset, const Design& design);
+
+} // namespace nephroid::inverse

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The search for slopes: a method, step after step, until it gains no more or the preset's stop, of whose seconds the judge gets its part.
+#pragma once
+#include "inverse/method.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace nephroid::inverse {
+
+class Search {
+public:
+  /// triangles: of the solid, about. Preset, layout and targets outlive it, and may change as begin_count() has it.
+  Search(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets, std::uint64_t triangles,
+         const compute::Context& context);
+
+  const Method& method() const { return *method_; }
+  /// Asks how long the judge takes, where seconds end the search. The same on each rank.
+  bool is_over();
+  /// A short piece of work. True: a step is complete now.
+  bool advance();
+
+  /// The stop counts from here, and facets keep their slopes, where the preset, the layout and the targets are other ones now.
+  void go_on();
+
+  double seconds() const { return seconds_; } ///< of work
+  void add_seconds(double seconds) { seconds_ += seconds; }
+  /// Of the stop, 0..1.
+  double fraction_done() const;
+  /// When it ends; -1: by time.
+  std::int64_t last_step() const { return most_steps() ? began_.steps + *most_steps() : -1; }
+  /// Neither the method nor the stop's passes ended it.
+  bool has_steps_left() const { return !method_->finished() && !(most_steps() && method_->steps() - began_.steps >= *most_steps()); }
+
+  /// The curve "cost", and what the method alone has to tell.
+  void show(job::Snapshot& snapshot) const;
+
+  /// Two parts of a state, with the job's own between them.
+  void state_of_method(State& state);
+  void state_of_count(State& state);
+
+private:
+  /// Where the stop counts from: the run's begin, or the newest preset that it took on.
+  struct Began {
+    std::int64_t steps = 0;
+    double seconds = 0;
+  };
+  struct CostRow {
+    double step = 0, seconds = 0;
+    Cost cost;
+  };
+
+  void note_step();
+  double counted_seconds() const { return seconds_ - began_.seconds; }
+  double search_seconds() const;
+  double last_step_seconds() const;
+  std::optional<std::int64_t> most_steps() const;
+
+  compute::Context context_;
+  const preset::Preset& preset_;
+  const Layout& layout_;
+  std::uint64_t triangles_;
+  std::unique_ptr<Method> method_;
+  Began began_;
+  std::vector<CostRow> history_;
+  double seconds_ = 0;
+  std::optional<double> judge_needs_; ///< seconds; where time ends the run, from its first step on
+};
+
+} // namespace nephroid::inverse

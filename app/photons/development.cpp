@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photons/development.h"
+
+#include "tracing/film.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace nephroid::photons {
+namespace {
+
+/// Smoothing::BiasedEstimate::noise. Direct light has shadows that are broader than what is fine in a caustic.
+constexpr double caustic_noise = 0.05, direct_noise = 0.01;
+
+void add(const char* name, LayerEstimate layer, job::Picture& picture)
+{
+  std::ranges::transform(picture.rgb, layer.rgb, picture.rgb.begin(), std::plus());
+  if (layer.draw.empty()) picture.error_draw.clear();
+  if (!picture.error_draw.empty()) std::ranges::transform(picture.error_draw, layer.draw, picture.error_draw.begin(), std::plus());
+  picture.layers.push_back({name, std::move(layer.rgb)});
+}
+
+} // namespace
+
+job::Picture Development::picture()
+{
+  job::Picture picture = black();
+  bool has_caustics = false;
+  for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
+    const TimedStage& stage = passes_.stages()[s];
+    if (!stage.caustics())
+      add(stage.layer, layer_of(s), picture);
+    else if (!std::exchange(has_caustics, true))
+      add(stage.layer, caustics(), picture);
+  }
+  return picture;
+}
+
+job::Picture Development::black(const Blocks& blocks) const
+{
+  job::Picture picture;
+  picture.width = blocks.across();
+  picture.height = blocks.down();
+  picture.rgb.assign(3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height), 0.0f);
+  if (!passes_.stages().empty() && world_.halves == 2) picture.error_draw = picture.rgb;
+  return picture;
+}
+
+void Development::prepare()
+{
+  if (smoothing_ && smooths_paths_) timed([&] { smoothing_->pixels().find_surfaces(); });
+}
+
+void Development::smooth(std::vector<float>& rgb, std::vector<float>& error_draw, std::span<const float> estimate)
+{
+  if (smoothing_) smoothing_->pixels().spread(rgb, error_draw, {estimate, direct_noise});
+}
+
+void Development::share_work()
+{
+  job::Picture picture = black(), caustics = picture;
+  std::vector<std::vector<float>> draws; // of each stage
+  std::uint64_t photons = 0;
+  for (const TimedStage& s : passes_.stages()) {
+    job::Picture& into = s.caustics() ? caustics : picture;
+    std::vector<float> before = into.error_draw;
+    s.stage->develop(passes_.complete(), false, into);
+    if (into.error_draw.empty()) return;
+    std::transform(into.error_draw.begin(), into.error_draw.end(), before.begin(), before.begin(), std::minus());
+    draws.push_back(std::move(before));
+    if (s.caustics()) photons += s.stage->photons_per_pass();
+  }
+  if (photons == 0) return;
+  LayerEstimate splatted{std::move(tracing::layer_of(caustics, "caustic").rgb), std::move(caustics.error_draw)};
+  if (smoothing_) smoothing_->spread(splatted, {});
+  tracing::layer_of(picture, "caustic").rgb = std::move(splatted.rgb);
+  for (const job::Layer& layer : picture.layers)
+    std::transform(layer.rgb.begin(), layer.rgb.end(), picture.rgb.begin(), picture.rgb.begin(), std::plus());
+
+  Noise caustic_noise_now{splatted.draw, picture.rgb, passes_.complete()};
+  double noise = 0; // of photons: what glass shows are also paths
+  for (std::size_t i = 0; i < picture.rgb.size(); ++i)
+    if (!world_.pixels.may_show_glass[i / 3]) noise += caustic_noise_now.of(i);
+  if (noise == 0) return;
+  caustic_noise_now.photon_gain = noise / (static_cast<double>(passes_.complete()) * static_cast<double>(photons));
+  for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
+    const TimedStage& timed = passes_.stages()[s];
+    timed.stage->share_work(timed.caustics() ? caustic_noise_now : Noise{draws[s], picture.rgb, passes_.complete(), caustic_noise_now.photon_gain});
+  }
+}
+
+LayerEstimate Development::preview_of(Stage& stage)
+{
+  const Blocks& blocks = world_.preview.blocks;
+  job::Picture picture = black(blocks);
+  stage.develop_preview(picture);
+  if (picture.layers.empty()) return {};
+  LayerEstimate coarse{std::move(picture.layers[0].rgb), std::move(picture.error_draw)}, pixels;
+  if (!smoothing_) return between(blocks, coarse);
+  timed([&] { pixels = smoothing_->pixels_of(blocks, std::move(coarse)); });
+  return pixels;
+}
+
+LayerEstimate Development::layer_of(std::size_t s)
+{
+  Stage& stage = *passes_.stages()[s].stage;
+  const bool whole = passes_.complete() > 0 || passes_.had_turn(s);
+  const bool is_previewed = preview_.has_picture() && !passes_.has_halves(s) && (!whole || smoothing_);
+  LayerEstimate preview = is_previewed ? preview_of(stage) : LayerEstimate();
+  if (!preview.rgb.empty() && !whole) return preview;
+  job::Picture picture = black();
+  stage.develop(passes_.complete(), passes_.had_turn(s), picture);
+  LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+  if (!preview.rgb.empty()) { // a single sample of each pixel: all there is to see of a wall, and little of glass
+    for (std::size_t i = 0; i < layer.rgb.size(); ++i)
+      if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = preview.rgb[i];
+    layer.draw = std::move(preview.draw);
+  } else if (smoothing_ && smooths_paths_ && passes_.has_halves(s)) {
+    timed([&] { smoothing_->pixels().spread(layer.rgb, layer.draw); });
+  } else if (is_previewed) { // photons of a stage that has no preview of its own
+    layer = between(world_.preview.blocks, means(world_.preview.blocks, layer));
+  }
+  return layer;
+}
+
+LayerEstimate Development::caustics()
+{
+  LayerEstimate preview; // of photon maps, which come after all photons of a pass; until then glass shows what is known otherwise
+  bool lacks_maps = false;
+  job::Picture picture = black();
+  tracing::layer_of(picture, "caustic");
+  for (std::size_t s = 0; s < passes_.stages().size(); ++s) {
+    const TimedStage& timed_stage = passes_.stages()[s];
+    if (!timed_stage.caustics()) continue;
+    if (!smoothing_ || passes_.has_halves(s)) {
+      timed_stage.stage->develop(passes_.complete(), passes_.had_turn(s), picture);
+    } else {
+      lacks_maps = true;
+      if (preview_.has_picture()) preview = preview_of(*timed_stage.stage);
+    }
+  }
+  LayerEstimate layer{std::move(picture.layers[0].rgb), std::move(picture.error_draw)};
+  for (std::size_t i = 0; lacks_maps && i < estimate_.size(); ++i)
+    if (world_.pixels.may_show_glass[i / 3]) layer.rgb[i] = estimate_[i], layer.draw[i] = 0;
+  if (smoothing_ && !layer.draw.empty()) timed([&] { smoothing_->spread(layer, {estimate_, caustic_noise}); });
+  if (!preview.rgb.empty()) std::ranges::transform(layer.rgb, preview.rgb, layer.rgb.begin(), std::plus());
+  if (!preview.draw.empty() && !layer.draw.empty()) std::ranges::transform(layer.draw, preview.draw, layer.draw.begin(), std::plus());
+  return layer;
+}
+
+} // namespace nephroid::photons

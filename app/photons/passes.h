@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Passes, in each of which every stage has its turn, step by step; and how far they are.
+#pragma once
+#include "photons/stage.h"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nephroid::photons {
+
+/// A stage with the seconds it has worked.
+struct TimedStage {
+  std::unique_ptr<Stage> stage;
+  const char* layer = "";
+  double seconds = 0;
+  bool caustics() const { return std::string_view(layer) == "caustic"; }
+};
+
+template <class Work>
+double seconds_of(const Work& work)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+class Passes {
+public:
+  /// batches: of photons, of a pass.
+  explicit Passes(unsigned batches) : rounds_(batches) {}
+  void add(std::unique_ptr<Stage> stage, const char* layer) { stages_.push_back({std::move(stage), layer}); }
+  const std::vector<TimedStage>& stages() const { return stages_; }
+
+  /// One slice of about 30 ms of the stage whose turn it is.
+  void advance();
+  /// Does other work of the run's that belongs to a stage.
+  template <class Work>
+  void work(std::size_t stage, const Work& work)
+  {
+    const double seconds = seconds_of(work);
+    stages_[stage].seconds += seconds;
+    at_.work_seconds += seconds;
+  }
+
+  std::int64_t complete() const { return at_.pass; }
+  double work_seconds() const { return at_.work_seconds; }
+  bool is_between_passes() const { return at_.stage == 0 && !at_.part_of_pass; }
+  /// Whether a stage has had its turn in the pass in hand.
+  bool had_turn(std::size_t stage) const { return stage < at_.stage; }
+  bool has_halves(std::size_t stage) const { return stages_[stage].stage->has_halves(at_.pass, had_turn(stage)); }
+  /// After so many passes no stage takes part any more.
+  std::int64_t most() const;
+  /// Passes done with the part of the one in hand, in which every stage counts as much.
+  double with_part() const;
+  /// Photons sent so far.
+  std::uint64_t photons() const;
+  /// The batches of photons that DeviceWorld::energy is about, with the part of the one in hand.
+  double photon_batches() const;
+  /// The same since begin_energy().
+  double energy_rounds() const { return photon_batches() - at_.energy_from; }
+  void begin_energy() { at_.energy_from = photon_batches(); }
+
+  void state_of_position(tracing::State& state) { state.value(at_); }
+  void state_of_stages(tracing::State& state);
+
+private:
+  struct Position {
+    std::int64_t pass = 0;     ///< passes completed
+    std::size_t stage = 0;     ///< whose turn it is
+    bool part_of_pass = false; ///< whether it has begun
+    double work_seconds = 0;
+    double energy_from = 0; ///< batches of photons when the energy counters began
+  };
+
+  /// How much of the pass in hand a stage has done.
+  double fraction_of(std::size_t stage) const;
+
+  unsigned rounds_;
+  std::vector<TimedStage> stages_;
+  Position at_;
+};
+
+} // namespace nephroid::photons
