@@ -50,7 +50,7 @@ public:
     if (bakes_next_)
       timed(bake_seconds_, [&] { bake(); });
     else if (photons_next)
-      timed(photon_seconds_, [&] { photons_.step(*view_); });
+      timed(photon_seconds_, [&] { photons_.advance(*view_); });
     else
       timed(render_seconds_, [&] { renderer()->advance(); });
   }

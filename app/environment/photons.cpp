@@ -57,7 +57,7 @@ bool JoinedPhotons::wants_turn(std::int64_t eye_passes, std::int64_t most) const
   return complete_passes() < most && (eye_passes >= most || passes() < std::max((done + 1) / 4, done - 0.75) + ahead_);
 }
 
-void JoinedPhotons::step(const SceneView& view)
+void JoinedPhotons::advance(const SceneView& view)
 {
   if (run_) return run_->advance();
   const Renderer& renderer = *view.renderer();
@@ -90,7 +90,7 @@ void JoinedPhotons::state(tracing::State& state, const SceneView& view)
   state.value(has_run);
   has_planned_ = has_run && has_planned_;
   if (!has_run) return run_.reset();
-  if (!run_) step(view); // which begins
+  if (!run_) advance(view); // which begins
   run_->state(state);
 }
 

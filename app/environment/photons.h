@@ -34,7 +34,7 @@ public:
   /// first picture of both soon: then there are two halves of each. A whole one follows each later one. most: passes of either.
   bool wants_turn(std::int64_t eye_passes, std::int64_t most) const;
   /// One slice of about 30 ms; the first one begins with what is shown.
-  void step(const SceneView& view);
+  void advance(const SceneView& view);
   /// So many passes ahead of paths from the eye they stay.
   void stay_ahead() { ahead_ = run_ ? passes() : 0; }
 

@@ -102,7 +102,7 @@ public:
     p.work_seconds = passes_.work_seconds();
     p.whole = p.step > 0 || preview_.has_picture();
     const double by_seconds = preset_.stop.seconds ? p.work_seconds / *preset_.stop.seconds : 0,
-                 by_passes = most_passes_ > 0 ? passes_.with_part() / static_cast<double>(most_passes_) : 0;
+                 by_passes = most_passes_ > 0 ? passes_.with_fraction() / static_cast<double>(most_passes_) : 0;
     p.fraction = finished() ? 1 : std::min(std::max(by_seconds, by_passes), 1.0);
     return p;
   }
@@ -114,7 +114,7 @@ public:
     for (const TimedStage& s : passes_.stages()) snapshot.phases.emplace_back(s.stage->name(), s.seconds);
     if (development_.smooths()) snapshot.phases.emplace_back("smoothing", development_.smoothing_seconds());
     snapshot.progress = progress();
-    const double batches = passes_.energy_rounds();
+    const double batches = passes_.energy_batches();
     Energy energy{balance_of(outcome_watts(world_.energy.read_sum(), world_.tables.energy_scale, batches)), {}};
     for (std::size_t s = 0; s < passes_.stages().size(); ++s)
       passes_.stages()[s].stage->report(passes_.complete(), passes_.had_turn(s), energy);

@@ -5,12 +5,12 @@
 
 namespace nephroid::photons {
 
-void Passes::step()
+void Passes::advance()
 {
   const std::size_t now = at_.stage;
   bool complete = false;
   work(now, [&] { complete = at_.pass >= stages_[now].stage->passes() || stages_[now].stage->advance(at_.pass); });
-  at_.part_of_pass = !complete;
+  at_.has_begun = !complete;
   if (!complete || ++at_.stage < stages_.size()) return;
   at_.stage = 0;
   ++at_.pass;
@@ -25,7 +25,7 @@ std::int64_t Passes::most() const
 
 double Passes::fraction_of(std::size_t stage) const { return had_turn(stage) ? 1 : stage > at_.stage ? 0 : stages_[stage].stage->fraction_done(); }
 
-double Passes::with_part() const
+double Passes::with_fraction() const
 {
   double part = 0, count = 0;
   for (std::size_t s = 0; s < stages_.size(); ++s)
@@ -45,7 +45,7 @@ std::uint64_t Passes::photons() const
 double Passes::photon_batches() const
 {
   for (std::size_t s = 0; s < stages_.size(); ++s)
-    if (stages_[s].stage->counts_energy()) return (static_cast<double>(at_.pass) + fraction_of(s)) * rounds_;
+    if (stages_[s].stage->counts_energy()) return (static_cast<double>(at_.pass) + fraction_of(s)) * batches_;
   return 0;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes, in each of which every stage has its turn, step by step; and how far they are.
+// Passes, in each of which every stage has its turn, slice by slice; and how far they are.
 #pragma once
 #include "photons/stage.h"
 
@@ -31,7 +31,7 @@ double seconds_of(const Work& work)
 class Passes {
 public:
   /// batches: of photons, of a pass.
-  explicit Passes(unsigned batches) : rounds_(batches) {}
+  explicit Passes(unsigned batches) : batches_(batches) {}
   void add(std::unique_ptr<Stage> stage, const char* layer) { stages_.push_back({std::move(stage), layer}); }
   const std::vector<TimedStage>& stages() const { return stages_; }
 
@@ -48,20 +48,20 @@ public:
 
   std::int64_t complete() const { return at_.pass; }
   double work_seconds() const { return at_.work_seconds; }
-  bool is_between_passes() const { return at_.stage == 0 && !at_.part_of_pass; }
+  bool is_between_passes() const { return at_.stage == 0 && !at_.has_begun; }
   /// Whether a stage has had its turn in the pass in hand.
   bool had_turn(std::size_t stage) const { return stage < at_.stage; }
   bool has_halves(std::size_t stage) const { return stages_[stage].stage->has_halves(at_.pass, had_turn(stage)); }
   /// After so many passes no stage takes part any more.
   std::int64_t most() const;
   /// Passes done with the part of the one in hand, in which every stage counts as much.
-  double with_part() const;
+  double with_fraction() const;
   /// Photons sent so far.
   std::uint64_t photons() const;
   /// The batches of photons that DeviceWorld::energy is about, with the part of the one in hand.
   double photon_batches() const;
   /// The same since begin_energy().
-  double energy_rounds() const { return photon_batches() - at_.energy_from; }
+  double energy_batches() const { return photon_batches() - at_.energy_from; }
   void begin_energy() { at_.energy_from = photon_batches(); }
 
   void state_of_position(tracing::State& state) { state.value(at_); }
@@ -71,7 +71,7 @@ private:
   struct Position {
     std::int64_t pass = 0;     ///< passes completed
     std::size_t stage = 0;     ///< whose turn it is
-    bool part_of_pass = false; ///< whether it has begun
+    bool has_begun = false; ///< whether it has begun
     double work_seconds = 0;
     double energy_from = 0; ///< batches of photons when the energy counters began
   };
@@ -79,7 +79,7 @@ private:
   /// How much of the pass in hand a stage has done.
   double fraction_of(std::size_t stage) const;
 
-  unsigned rounds_;
+  unsigned batches_;
   std::vector<TimedStage> stages_;
   Position at_;
 };

@@ -17,7 +17,7 @@ Baking::Baking(std::shared_ptr<const BakeTask> task, std::uint64_t key, std::fil
   if (!bake_) baker_.emplace(*task_, context_, wanted_);
 }
 
-void Baking::step()
+void Baking::advance()
 {
   baker_->advance();
   if (!baker_->finished()) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bake of a run: read from its file, or made step by step and then kept there.
+// The bake of a run: read from its file, or made slice by slice and then kept there.
 #pragma once
 #include "environment/bake/baker.h"
 

@@ -48,16 +48,8 @@ Caustics::Caustics(const Bake& bake, const compute::Context& context)
   ways_ = compute::Buffer<std::uint16_t>::wrapping_host_memory(context, "ways through spheres", bake.ways);
   const compute::Defines defines{{"NEPHROID_CHANNELS", std::to_string(bake.channels)}};
   const compute::Program program(context, "environment/cast.cl", defines);
+  cast_ = program.kernel("cast");
   compile_air_ = program.kernel("compile_air");
-  if (technique == Technique::eight_sets) {
-    cast_ = program.kernel("cast");
-    return;
-  }
-  const compute::Program one_by_one(context, "environment/one_by_one.cl", defines);
-  cast_ = one_by_one.kernel(technique == Technique::compiled ? "cast_compiled" : "cast");
-  if (technique != Technique::compiled) return;
-  compile_ = one_by_one.kernel("compile");
-  compiled_ = compute::Buffer<float>(context, "compiled spheres", 3 * bake.direction_texels());
 }
 
 std::uint64_t Caustics::bytes(const Bake& bake)

@@ -66,7 +66,6 @@ private:
   void timed(const Work& work);
 
   compute::Context context_;
-  Technique technique_;
   int directions_; ///< of the bake
   shared::DeviceSpheres spheres_{};
   compute::Buffer<std::uint16_t> stored_, ways_;
@@ -74,8 +73,7 @@ private:
   compute::Buffer<float> radii_;
   Air air_;
   compute::Buffer<shared::DeviceEightSets> sets_;
-  int set_count_ = 0, used_eights_ = 0; ///< of the buffer's
-  compute::Buffer<float> compiled_;     ///< [sphere][texel of the stored form][3], by Technique::compiled
+  int used_eights_ = 0; ///< of the buffer's
   double seconds_ = 0;
   compute::Kernel cast_, compile_air_;
 };

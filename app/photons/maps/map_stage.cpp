@@ -51,7 +51,7 @@ public:
   /// In the photons of the first batches, within a radius that grows with the blocks.
   bool advance_preview() override
   {
-    const Preview& preview = world_.preview;
+    const PreviewBlocks& preview = world_.preview;
     const shared::DeviceCamera camera = world_.preview_camera();
     const auto count = static_cast<std::uint32_t>(preview.glass.size());
     const double radius = first_radius_ * preview.blocks.edge;

@@ -24,7 +24,7 @@ struct PixelLists {
 };
 
 /// The newest of a run's previews.
-struct Preview {
+struct PreviewBlocks {
   Blocks blocks{0, 0, 0};               ///< edge 0: there is none
   unsigned batches = 0;                  ///< of photons, of the first pass
   compute::Buffer<std::uint32_t> glass; ///< blocks that may show glass or a mirror
@@ -39,7 +39,7 @@ struct DeviceWorld : tracing::World {
   compute::Buffer<std::int64_t> energy{}; ///< [OUTCOME_COUNT] quanta
   compute::Buffer<shared::DeviceEmitter> emitters{};
   PixelLists pixels{};
-  Preview preview{};
+  PreviewBlocks preview{};
   std::optional<PhotonMap> map{};           ///< that photons which are splatted go to as well, where a stage gathers them
   std::shared_ptr<Relighting> relighting{}; ///< where layers are kept for another light
 
