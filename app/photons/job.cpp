@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <cmath>
 #include <functional>
 #include <numeric>
 #include <optional>

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <span>
 #include <string>
 
 namespace nephroid::environment {
