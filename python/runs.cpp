@@ -7,7 +7,6 @@
 #include "python/bindings.h"
 #include "run/run.h"
 
-#include <atomic>
 #include <mutex>
 #include <optional>
 #include <unistd.h>

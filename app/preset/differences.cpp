@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <system_error>
 
 namespace nephroid::preset {

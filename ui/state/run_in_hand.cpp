@@ -4,8 +4,6 @@
 #include "engine/engine.h"
 #include "preset/read.h"
 
-#include <filesystem>
-
 namespace nephroid::ui {
 
 /// Filled on the worker's thread when a run was made ready.

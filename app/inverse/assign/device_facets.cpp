@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <span>
-#include <string>
 
 namespace nephroid::inverse {
 static_assert(BEAMS == Beams::most && DISC_BEAMS == disc_beams);
