@@ -5,7 +5,11 @@
 #include "measure/measured_job.h"
 #include "preset/origins.h"
 #include "python/bindings.h"
-#include "run/run.h"
+#include "run/exposure.h"
+#include "run/folder.h"
+#include "run/prepare.h"
+#include "run/reference.h"
+#include "run/write_run.h"
 
 #include <atomic>
 #include <mutex>

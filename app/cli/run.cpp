@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
-#include "run/run.h"
 #include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "base/interrupts.h"
@@ -9,6 +8,9 @@
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "report/data.h"
+#include "run/exposure.h"
+#include "run/folder.h"
+#include "run/prepare.h"
 #include "mpi/ranks.h"
 
 #include <fmt/format.h>

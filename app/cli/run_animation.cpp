@@ -5,7 +5,9 @@
 #include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/animation.h"
+#include "run/folder.h"
+#include "run/prepare.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -8,7 +8,14 @@
 #include "cli/progress.h"
 #include "engine/engine.h"
 #include "job/distributed_job.h"
-#include "run/run.h"
+#include "run/animation.h"
+#include "run/checkpoint.h"
+#include "run/content.h"
+#include "run/folder.h"
+#include "run/memory.h"
+#include "run/prepare.h"
+#include "run/reference.h"
+#include "run/write_run.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,7 +5,7 @@
 #include "compute/compute.h"
 #include "job/job.h"
 #include "preset/preset.h"
-#include "run/run.h"
+#include "run/prepare.h"
 #include "mpi/ranks.h"
 
 #include <set>
@@ -67,7 +67,7 @@ void require_shared(mpi::Ranks& ranks, const std::filesystem::path& file);
 /// Renders the target into its folder. Throws interrupted once its picture and a checkpoint are saved.
 void render(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared);
 
-/// Renders the frames that options.frames names into target.folder (run/run.h), each as a run of its own, then the video. With
+/// Renders the frames that options.frames names into target.folder (run/animation.h), each as a run of its own, then the video. With
 /// options.resume those that are finished are left as they are. Throws bad_input for a frame that there is not or that cannot be, before
 /// any is rendered.
 void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared);

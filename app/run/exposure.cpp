@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// "white": "auto" becomes a number before anything else is done, so that checkpoints, references, frames and files know numbers only, and a
-// run of that number has the same bits.
-#include "run/run.h"
+#include "run/exposure.h"
 
 #include "measure/lab.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cached reference is an EXR file named by the hash of all that it depends on. Beside the mean of its two seeds it holds the first of
 // the two as further channels: their distance is the noise floor, also of a mask that is given later.
-#include "run/run.h"
+#include "run/reference.h"
 
 #include "base/build_info.h"
 #include "base/files.h"
@@ -12,6 +12,7 @@
 #include "measure/read_picture.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"
+#include "run/content.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include "image/image.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/prepare.h"
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
 #include "tests/support/test_kernels.h"

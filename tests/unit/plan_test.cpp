@@ -4,7 +4,7 @@
 #include "cli/progress.h"
 #include "plan/plan.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/folder.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/process_state.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Importing Mitsuba and PBRT scenes: one scene written in both, and what becomes of it against values worked out in comments; what is left
 // out; files that are broken.
+#include "formats/import/import.h"
 #include "preset/read.h"
-#include "run/import/import.h"
 #include "tests/support/test.h"
 
 #include <numbers>
@@ -42,7 +42,7 @@ class SceneImport : public testing::Test {
 protected:
   preset::Preset imported(const std::string& text, const std::string& name)
   {
-    made = run::import_scene(folder.write(name, text), folder.path() / "out.json");
+    made = formats::import_scene(folder.write(name, text), folder.path() / "out.json");
     return preset::read_preset(made.preset.string());
   }
   std::string refusal(const std::string& text, const std::string& name)
@@ -52,7 +52,7 @@ protected:
     return line;
   }
   test::TemporaryFolder folder;
-  run::Imported made;
+  formats::Imported made;
 };
 
 TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset)

@@ -4,7 +4,9 @@
 #include "compute/compute.h"
 #include "measure/measured_job.h"
 #include "preset/origins.h"
-#include "run/run.h"
+#include "run/exposure.h"
+#include "run/prepare.h"
+#include "run/reference.h"
 
 namespace nephroid::ui {
 namespace {
