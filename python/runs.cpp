@@ -150,7 +150,7 @@ private:
     const compute::Context context = compute::Context::open({.selector = device});
     made->device = context.device();
     const compute::TellOfCompiling telling(context, [&] { watch.begin("compiling kernels"); });
-    if (preset.white == 0) made->prepared.preset.white = run::fitted_white(made->prepared, context, watch);
+    if (!preset.white) made->prepared.preset.white = run::fitted_white(made->prepared, context, watch);
     made->reference = run::find_reference(made->prepared, context);
     if (!made->reference && made->prepared.preset.reference) {
       watch.begin("rendering the reference");

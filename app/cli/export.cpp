@@ -113,7 +113,7 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
     const compute::Context& context = device_of(options.run, shared);
     const run::ClaimedFolder claimed(folder, true, {"an export", {formats::list_file}});
     const double white =
-        asked.white != 0 ? asked.white : run::fitted_white(run::prepare(asked, nullptr, {interrupted, {}}), context, {interrupted, {}});
+        asked.white ? *asked.white : run::fitted_white(run::prepare(asked, nullptr, {interrupted, {}}), context, {interrupted, {}});
     std::vector<formats::Caustic> caustics;
     std::vector<std::string> notes = prepared.plan->notes;
     for (const formats::Receiver& receiver : receivers)

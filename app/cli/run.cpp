@@ -81,7 +81,7 @@ void put_in_order(std::vector<double>& times)
 /// pictures can be compared; a run that goes on has its own.
 void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared, const Communicator& communicator)
 {
-  if (target.preset.white != 0) return;
+  if (target.preset.white) return;
   if (communicator.is_root()) {
     if (const auto own = options.resume ? run::white_of_run(target.folder) : std::nullopt) shared.white = own;
     if (!shared.white) {
@@ -93,7 +93,7 @@ void fit_white(const RunOptions& options, Target& target, const std::stop_token&
       fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
     }
   }
-  target.preset.white = communicator.broadcast(shared.white.value_or(0));
+  target.preset.white = communicator.broadcast(shared.white);
 }
 
 void run_one(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared)

@@ -31,7 +31,7 @@ public:
       : preset_(preset), shown_(preset), loaded_(preset), task_(plan.task), render_(plan.render), context_(context),
         file_(plan.bake_file), identity_{plan.key, hash_of(compute::kernel_source(context, "environment/bake.cl"))},
         width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
-        sphere_white_(plan.render ? 0.2 : preset.white), stop_(preset.stop)
+        sphere_white_(plan.render ? 0.2 : preset.white.value()), stop_(preset.stop)
   {
     if (render_ && (stop_.passes || !stop_.seconds)) passes_ = stop_.passes.value_or(preset::default_passes);
     if (context.communicator().broadcast(!plan.bakes)) read();
@@ -299,7 +299,7 @@ private:
   {
     if (!render_) return;
     if (!renderer_) {
-      renderer_.emplace(*render_, preset_.white, preset_.seed, context_);
+      renderer_.emplace(*render_, preset_.white.value(), preset_.seed, context_);
       shown_ = loaded_;
       go_on_with(preset_);
       if (photons) begin_photons(renderer_->scene(), *photons);
@@ -316,7 +316,7 @@ private:
         std::make_shared<const RenderTask>(make_render_task(preset, scene, scene::build_bvh(scene.geometry), task_->caster, render_.get()));
     loaded_ = preset;
     renderer_.reset(); // its device memory is for the next
-    renderer_.emplace(*render_, preset.white, preset.seed, context_);
+    renderer_.emplace(*render_, preset.white.value(), preset.seed, context_);
     if (caustics_) renderer_->set_caustics(*caustics_);
     shown_ = preset;
     return true;
@@ -347,8 +347,8 @@ private:
       renderer_->turn_environment(preset.scene.environment->rotate_deg);
       begins = true;
     }
-    renderer_->set_white(preset.white);
-    if (photons_) photons_->set_white(preset.white);
+    renderer_->set_white(preset.white.value());
+    if (photons_) photons_->set_white(preset.white.value());
     shown_ = preset;
     return begins;
   }

@@ -55,7 +55,7 @@ class PassesJob final : public PhotonJob, public job::SpectrumSource {
 public:
   PassesJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
             const compute::Context& context)
-      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white,
+      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white.value(),
                plan.estimates_error ? 2u : 1u},
         preset_(preset), stop_seconds_(preset.stop.seconds)
   {
@@ -186,7 +186,7 @@ public:
     if (!world_.relighting || !engine::adoptable(preset_, preset)) return false;
     change_light(*world_.relighting, world_, layer_light(preset));
     preset_ = preset;
-    world_.white = preset.white;
+    world_.white = preset.white.value();
     at_.energy_from = photon_batches();
     return true;
   }

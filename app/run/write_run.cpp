@@ -72,7 +72,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
   Json all{{"name", prepared.preset.name},
            {"engine", prepared.plan->engine},
            {"seed", prepared.preset.seed},
-           {"white", prepared.preset.white},
+           {"white", prepared.preset.white.value()},
            {"version", version()},
            {"commit", commit()},
            {"compiler", compiler()},

@@ -72,7 +72,7 @@ TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset)
     ASSERT_EQ(p.scene.lights.size(), 1u);
     EXPECT_NEAR(p.scene.lights[0].position[0], -2, 1e-9);
     // 10 of the luminance that is white, in every direction; D65 has about 683 / 200 watts to a luminous watt.
-    EXPECT_NEAR(p.scene.lights[0].power_w / p.white, 4 * pi * 10 * 683 / 200, 0.03 * 4 * pi * 10 * 683 / 200);
+    EXPECT_NEAR(p.scene.lights[0].power_w / p.white.value(), 4 * pi * 10 * 683 / 200, 0.03 * 4 * pi * 10 * 683 / 200);
     fs::remove(folder.path() / "out.json");
   }
 }

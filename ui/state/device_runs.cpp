@@ -54,7 +54,7 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch)
     changed_ = false;
   }
   previous_ = std::move(prepared);
-  if (preset.white == 0) previous_->preset.white = run::fitted_white(*previous_, *context_, watch);
+  if (!preset.white) previous_->preset.white = run::fitted_white(*previous_, *context_, watch);
   auto plan = std::make_shared<plan::Plan>(*previous_->plan);
   std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan->notes);
   watch.begin("setting up the run");
