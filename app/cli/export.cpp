@@ -82,15 +82,14 @@ std::optional<formats::Caustic> caustic_on(const ExportOptions& options, const r
   const std::string name = name_of(prepared.loaded->scene, receiver);
   const run::Prepared lit =
       run::with_scene(prepared, formats::irradiance_view(prepared.loaded->scene, receiver, options.size), "choose a smaller --size");
-  const std::unique_ptr<job::Job> job = run::make_job(lit, context);
-  ProgressDisplay display(progress_style(false), {name, prepared.preset.name}, job->progress());
-  while (!job->finished()) {
+  ProgressDisplay display(progress_style(false), {name, prepared.preset.name}, {});
+  const job::Snapshot last = run::render_picture(lit, context, [&](const job::Progress& progress) {
     if (interrupted.stop_requested()) throw Error(ErrorKind::interrupted, "export", "was interrupted", "nothing is written");
-    job->advance();
-    display.update(job->progress());
-  }
-  display.finish(job->progress());
-  formats::Caustic caustic(lit.loaded->scene, receiver, *job->snapshot().picture);
+    display.update(progress);
+    return true;
+  });
+  display.finish(last.progress);
+  formats::Caustic caustic(lit.loaded->scene, receiver, *last.picture);
   if (!(caustic.watts > 0)) return std::nullopt;
   return caustic;
 }
@@ -106,14 +105,15 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
       options.run.folder.empty() ? fs::path("out") / (preset::stem_of(options.run.preset) + "-export") : options.run.folder;
   const preset::Preset preset = caustics_only(options, asked);
   preset::at_origins(preset, [&] {
-    const run::Prepared prepared = run::prepare(preset, nullptr, {interrupted, {}});
+    const Watch watch{interrupted, {}};
+    const run::Prepared prepared = run::prepare(preset, nullptr, watch);
     const std::vector<formats::Receiver> receivers = chosen(options, prepared.loaded->scene);
     if (prepared.plan->layers == 0) throw bad_input(preset.source, "has no caustic: " + no_photons(*prepared.plan));
-    Shared shared;
-    const compute::Context& context = device_of(options.run, shared);
+    run::DeviceOnDemand device(device_opener(options.run.device));
+    const compute::Context& context = device.context();
     const run::ClaimedFolder claimed(folder, true, {"an export", {formats::list_file}});
-    const double white =
-        asked.white ? *asked.white : run::fitted_white(run::prepare(asked, nullptr, {interrupted, {}}), context, {interrupted, {}});
+    std::optional<run::Prepared> lender = prepared;
+    const double white = asked.white ? *asked.white : run::fitted_white(asked, lender, device, watch);
     std::vector<formats::Caustic> caustics;
     std::vector<std::string> notes = prepared.plan->notes;
     for (const formats::Receiver& receiver : receivers)

@@ -2,9 +2,10 @@
 // "white": "auto" becomes a number before anything else is done, so that checkpoints, references, frames and files know numbers only, and a
 // run of that number has the same bits.
 #pragma once
-#include "compute/compute.h"
 #include "job/job.h"
 #include "run/prepare.h"
+
+#include <optional>
 
 namespace nephroid::run {
 
@@ -13,7 +14,8 @@ namespace nephroid::run {
 double white_for(const job::Picture& picture);
 
 /// The same of the preset's first whole picture, at most 256 pixels wide and high, whatever the preset's white is: what stands for "auto".
-/// 1 where white changes nothing of the engine's pictures. Throws as prepare and make_job do, and interrupted where `watch` asks for it.
-double fitted_white(const Prepared& prepared, const compute::Context& context, const Watch& watch = {});
+/// 1 where white changes nothing of the engine's pictures. lender: lends its scene, as prepare takes it; then it is the small picture's
+/// run, and lends that. Throws as prepare and render_picture do, and interrupted where `watch` asks for it.
+double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device, const Watch& watch = {});
 
 } // namespace nephroid::run

@@ -10,7 +10,7 @@
 
 namespace nephroid::run {
 
-/// Throws failed where the device or this machine has not enough memory for the run. make_job asks this first.
+/// Throws failed where the device or this machine has not enough memory for the run.
 void require_memory(const Prepared& prepared, const compute::Context& context);
 
 /// What the program itself needs at most to make a picture of width x height pixels, measure it and write its files.

@@ -91,8 +91,16 @@ Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::str
 
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context)
 {
-  require_memory(prepared, context);
   return engine::engine_of(prepared.preset).job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, *prepared.plan, context);
+}
+
+job::Snapshot render_picture(const Prepared& prepared, const compute::Context& context,
+                             const std::function<bool(const job::Progress&)>& stepped)
+{
+  require_memory(prepared, context);
+  const std::unique_ptr<job::Job> job = make_job(prepared, context);
+  for (bool goes_on = true; goes_on && !job->finished(); goes_on = stepped(job->progress())) job->advance();
+  return job->snapshot();
 }
 
 } // namespace nephroid::run

@@ -9,7 +9,9 @@
 #include "scene/bvh.h"
 #include "scene/scene.h"
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace nephroid::run {
@@ -36,8 +38,35 @@ Prepared prepare(const preset::Preset& preset, const Prepared* previous = nullpt
 /// does not fit (plan::Plan::smaller).
 Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::string& smaller);
 
-/// Builds the engine's job on a device. Its preset's white is a number. Throws as require_memory, before anything is allocated, BuildError
-/// for a kernel that does not compile, and bad_input for what the engine cannot render.
+/// Builds the engine's job on a device, whose memory was asked for (require_memory). Its preset's white is a number. Throws BuildError for
+/// a kernel that does not compile, and bad_input for what the engine cannot render.
 std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
+
+/// A picture that something else is made of: not measured, nothing written. stepped: hears of each step, and says whether another one
+/// follows; may throw. Throws as require_memory and make_job do.
+job::Snapshot render_picture(const Prepared& prepared, const compute::Context& context,
+                             const std::function<bool(const job::Progress&)>& stepped);
+
+/// A device that is opened by the first who needs it, and stays open for the next run: opening takes a while.
+class DeviceOnDemand {
+public:
+  explicit DeviceOnDemand(std::function<compute::Context()> open) : open_(std::move(open)) {}
+  const compute::Context& context(const Watch& watch = {})
+  {
+    if (!context_) {
+      watch.begin("opening the device");
+      context_ = open_();
+    }
+    return *context_;
+  }
+  /// Of a device that has been opened.
+  const compute::Context& opened() const { return context_.value(); }
+  /// It is opened anew when it is needed again.
+  void close() { context_.reset(); }
+
+private:
+  std::function<compute::Context()> open_;
+  std::optional<compute::Context> context_;
+};
 
 } // namespace nephroid::run

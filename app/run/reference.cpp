@@ -120,19 +120,17 @@ std::vector<float> rendered_seed(const Prepared& prepared, const compute::Contex
                                  const std::stop_token& stop, const ReferenceProgress& report)
 {
   const Prepared recipe = prepare(recipe_preset(prepared.preset, seed), &prepared);
-  const std::unique_ptr<job::Job> job = make_job(recipe, context);
   if (const std::string changed = changed_input(prepared.plan->inputs, recipe.plan->inputs); !changed.empty())
     throw failed(Place(prepared.preset.source) / "reference", "cannot be rendered: " + changed, "", "start again");
-  while (!job->finished()) {
+  const job::Snapshot last = render_picture(recipe, context, [&](const job::Progress& now) {
     if (stop.stop_requested())
       throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted while the reference was rendered; nothing of it is kept");
-    job->advance();
-    const job::Progress now = job->progress();
     if (seconds == 0) require_time(prepared, now);
     report((seconds > 0 ? 0.5 : 0) + 0.5 * now.fraction, seconds + now.work_seconds);
-  }
-  seconds += job->progress().work_seconds;
-  return job->snapshot().picture->rgb;
+    return true;
+  });
+  seconds += last.progress.work_seconds;
+  return last.picture->rgb;
 }
 
 void write_reference(const fs::path& file, const Prepared& prepared, const std::vector<float>& first, const std::vector<float>& second)
