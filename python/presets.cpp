@@ -4,7 +4,7 @@
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "python/bindings.h"
-#include "run/run.h"
+#include "run/prepare.h"
 
 #include <unistd.h>
 

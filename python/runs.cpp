@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run on a thread of its own. Python asks for what there is, and never waits for the device.
-#include "compute/compute.h"
 #include "job/worker.h"
-#include "measure/measured_job.h"
 #include "preset/origins.h"
 #include "python/bindings.h"
-#include "run/run.h"
+#include "run/ready.h"
+#include "run/recorder.h"
+#include "run/write_run.h"
 
 #include <mutex>
 #include <optional>
@@ -15,11 +15,18 @@
 namespace nephroid::python {
 namespace {
 
-/// What a run is made of, once its thread has made it.
-struct Made {
+/// What a run is made of, once its thread has made it ready.
+struct Origin {
   run::Prepared prepared;
   compute::DeviceInfo device;
   std::shared_ptr<const measure::Reference> reference;
+};
+
+/// How a run begins.
+struct RunSettings {
+  preset::Preset preset;
+  std::string device, folder; ///< folder: that it writes its files into; empty: none
+  bool resume = false;
 };
 
 const char* word(job::State state)
@@ -42,22 +49,30 @@ const char* word(job::State state)
   return "";
 }
 
-/// Waits for the slice in hand, and holds up no other Python thread meanwhile.
-void end(job::Worker* worker)
-{
-  std::optional<py::gil_scoped_release> released;
-  if (PyGILState_Check() != 0) released.emplace();
-  delete worker;
-}
-
-class RunHandle {
+/// Keeps a run's folder; what it has to say comes after the notes of the plan.
+class Recorder final : public run::Recorder {
 public:
-  RunHandle(const preset::Preset& preset, std::string device) : process_(::getpid()), worker_(new job::Worker, &end)
+  Recorder(const run::ReadyRun& run, const std::string& folder, std::function<void(const std::string&)> tell)
+      : run::Recorder(run, {.folder = folder}), tell_(std::move(tell))
+  {
+  }
+
+private:
+  void note(const std::string& sentence) override { tell_(sentence); }
+  void warn(const std::string& sentence) override { tell_(sentence); }
+
+  std::function<void(const std::string&)> tell_;
+};
+
+class RunHandle final : private job::Observer {
+public:
+  explicit RunHandle(const RunSettings& settings) : process_(::getpid()), worker_(new job::Worker, [this](job::Worker* worker) { end(worker); })
   {
     use_opencl();
-    worker_->start([this, preset, device = std::move(device)] { return make(preset, device); });
+    worker_->set_observer(this);
+    worker_->start([this, settings] { return make(settings); });
   }
-  ~RunHandle() { close(); }
+  ~RunHandle() override { close(); }
   RunHandle(const RunHandle&) = delete;
   RunHandle& operator=(const RunHandle&) = delete;
 
@@ -86,7 +101,7 @@ public:
   {
     check_process();
     const std::scoped_lock lock(mutex_);
-    return made_ ? made_->prepared.plan->notes : std::vector<std::string>();
+    return notes_;
   }
 
   /// Waits for the slice in hand. A call of another thread that is at it keeps the worker until it returns.
@@ -107,14 +122,14 @@ public:
     const bool finished = held->status().state == job::State::finished; // before the picture, which is the last one then
     const std::shared_ptr<const job::Snapshot> shown = held->snapshot();
     held.reset();
-    const std::shared_ptr<const Made> made = [&] {
+    const std::shared_ptr<const Origin> origin = [&] {
       const std::scoped_lock lock(mutex_);
-      return made_;
+      return origin_;
     }();
-    if (!made || !shown || shown->stands_in) throw failed(folder, "the run has no picture yet", {}, "wait for one");
+    if (!origin || !shown || shown->stands_in) throw failed(folder, "the run has no picture yet", {}, "wait for one");
     const run::ClaimedFolder claimed(folder);
-    run::begin_run(folder, made->prepared);
-    run::write_run(folder, made->prepared, made->device, *shown, made->reference.get(), finished);
+    run::begin_run(folder, origin->prepared);
+    run::write_run(folder, origin->prepared, origin->device, *shown, origin->reference.get(), finished);
     if (finished && shown->history) run::write_report(folder);
   }
 
@@ -134,37 +149,66 @@ private:
     return worker_;
   }
 
-  /// On the worker's thread.
-  std::unique_ptr<job::Job> make(const preset::Preset& preset, const std::string& device)
+  /// Waits for the slice in hand, and holds up no other Python thread meanwhile.
+  void end(job::Worker* worker)
+  {
+    std::optional<py::gil_scoped_release> released;
+    if (PyGILState_Check() != 0) released.emplace();
+    delete worker;
+    recorder_.reset();
+    ready_.reset();
+  }
+
+  // On the worker's thread
+
+  std::unique_ptr<job::Job> make(const RunSettings& settings)
   {
     const Watch watch{stopping_.get_token(), [this](const std::string& doing) {
                         const std::scoped_lock lock(mutex_);
                         doing_ = doing;
                       }};
-    auto made = std::make_shared<Made>(Made{preset::at_origins(preset, [&] { return run::prepare(preset, nullptr, watch); }), {}, nullptr});
-    const compute::Context context = compute::Context::open({.selector = device});
-    made->device = context.device();
-    const compute::TellOfCompiling telling(context, [&] { watch.begin("compiling kernels"); });
-    if (preset.white == 0) made->prepared.preset.white = run::fitted_white(made->prepared, context, watch);
-    made->reference = run::find_reference(made->prepared, context);
-    if (!made->reference && made->prepared.preset.reference) {
-      watch.begin("rendering the reference");
-      made->reference = run::make_reference(made->prepared, context, stopping_.get_token(), [](double, double) {});
-    }
-    watch.begin("setting up the run");
-    auto job = measure::measured(run::make_job(made->prepared, context), made->prepared.preset, made->reference);
+    auto ready = std::make_unique<run::ReadyRun>([device = settings.device] { return compute::Context::open({.selector = device}); });
+    const auto refuse = [](const Error& error) { throw error.noting("leave out 'resume' to start over"); };
+    preset::at_origins(settings.preset, [&] {
+      run::make_ready(*ready, settings.preset,
+                      {.watch = watch, .folder = settings.folder, .resume = settings.resume, .bad_checkpoint = refuse});
+    });
+    ready_ = std::move(ready);
+    if (ready_->claimed) recorder_.emplace(*ready_, settings.folder, [this](const std::string& sentence) { add_note(sentence); });
     const std::scoped_lock lock(mutex_);
-    made_ = std::move(made);
+    origin_ = std::make_shared<const Origin>(Origin{*ready_->prepared, ready_->device.opened().device(), ready_->reference});
+    notes_ = ready_->prepared->plan->notes;
     doing_.clear();
-    return job;
+    return std::move(ready_->job);
+  }
+  void add_note(const std::string& sentence)
+  {
+    const std::scoped_lock lock(mutex_);
+    notes_.push_back(sentence);
+  }
+  void begun(job::Job& job) override
+  {
+    if (recorder_) recorder_->begun(job);
+  }
+  void stepped(job::Job& job) override
+  {
+    if (recorder_) recorder_->stepped(job);
+  }
+  void ended(job::Job& job) override
+  {
+    if (recorder_) recorder_->ended(job);
+    ready_->claimed.reset();
   }
 
   pid_t process_;
   std::stop_source stopping_;
   mutable std::mutex mutex_; ///< of what follows
   std::string doing_;
-  std::shared_ptr<const Made> made_;
-  std::shared_ptr<job::Worker> worker_; ///< null: closed. Who calls it holds it
+  std::vector<std::string> notes_;
+  std::shared_ptr<const Origin> origin_; ///< null until it is ready
+  std::unique_ptr<run::ReadyRun> ready_; ///< the worker's thread only, as is the next one
+  std::optional<Recorder> recorder_;     ///< nothing where the run has no folder
+  std::shared_ptr<job::Worker> worker_;  ///< null: closed. Who calls it holds it
 };
 
 /// In a forked process a run stays where it is: its threads may have left anything of it half done.
@@ -199,7 +243,10 @@ void add_runs(py::module_& module)
         return layers;
       });
   py::class_<RunHandle, std::unique_ptr<RunHandle, Deleter>>(module, "Run")
-      .def(py::init<const preset::Preset&, std::string>(), py::arg("preset"), py::arg("device"), released)
+      .def(py::init([](const preset::Preset& preset, std::string device, std::string folder, bool resume) {
+             return std::unique_ptr<RunHandle, Deleter>(new RunHandle({preset, std::move(device), std::move(folder), resume}));
+           }),
+           py::arg("preset"), py::arg("device"), py::arg("folder"), py::arg("resume"), released)
       .def("state", [](const RunHandle& run) { return word(run.status().state); })
       .def("progress", [](const RunHandle& run) { return run.status().progress; })
       .def("doing", &RunHandle::doing)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid export`: a scene with its caustics for Blender and whatever else reads glTF.
-#include "run/export/export.h"
+#include "formats/export/export.h"
+
 #include "base/interrupts.h"
 #include "cli/progress.h"
 #include "cli/run_target.h"
@@ -9,6 +10,8 @@
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"
+#include "run/exposure.h"
+#include "run/folder.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -48,17 +51,17 @@ preset::Preset caustics_only(const ExportOptions& options, const preset::Preset&
   return preset;
 }
 
-std::string name_of(const scene::Scene& scene, const run::Receiver& receiver)
+std::string name_of(const scene::Scene& scene, const formats::Receiver& receiver)
 {
   return scene.objects[static_cast<std::size_t>(receiver.object)].name;
 }
 
 /// Those that are asked for, or all.
-std::vector<run::Receiver> chosen(const ExportOptions& options, const scene::Scene& scene)
+std::vector<formats::Receiver> chosen(const ExportOptions& options, const scene::Scene& scene)
 {
-  std::vector<run::Receiver> all = run::receivers_of(scene);
+  std::vector<formats::Receiver> all = formats::receivers_of(scene);
   std::vector<std::string> names;
-  for (const run::Receiver& receiver : all) names.push_back(name_of(scene, receiver));
+  for (const formats::Receiver& receiver : all) names.push_back(name_of(scene, receiver));
   if (all.empty()) throw bad_input(options.run.preset, "has no flat matt object", "expected one that a caustic can fall on");
   const std::vector<std::string>& wanted = options.receivers;
   for (const std::string& name : wanted)
@@ -66,27 +69,27 @@ std::vector<run::Receiver> chosen(const ExportOptions& options, const scene::Sce
       throw bad_input("--receiver", fmt::format("no flat matt object is called '{}'", name),
                       fmt::format("one of: {}", fmt::join(names, ", ")));
   if (!wanted.empty())
-    std::erase_if(all, [&](const run::Receiver& receiver) { return std::ranges::count(wanted, name_of(scene, receiver)) == 0; });
+    std::erase_if(all, [&](const formats::Receiver& receiver) { return std::ranges::count(wanted, name_of(scene, receiver)) == 0; });
   return all;
 }
 
 std::string no_photons(const plan::Plan& plan) { return std::ranges::find(plan.passes, "photons", &plan::Pass::name)->reason; }
 
 /// Nothing where no light falls on the receiver.
-std::optional<run::Caustic> caustic_on(const ExportOptions& options, const run::Prepared& prepared, const run::Receiver& receiver,
-                                       const compute::Context& context, const std::stop_token& interrupted)
+std::optional<formats::Caustic> caustic_on(const ExportOptions& options, const run::Prepared& prepared, const formats::Receiver& receiver,
+                                           const compute::Context& context, const std::stop_token& interrupted)
 {
   const std::string name = name_of(prepared.loaded->scene, receiver);
-  const run::Prepared lit = run::light_on(prepared, receiver, options.size);
-  const std::unique_ptr<job::Job> job = run::make_job(lit, context);
-  ProgressDisplay display(progress_style(false), {name, prepared.preset.name}, job->progress());
-  while (!job->finished()) {
+  const run::Prepared lit =
+      run::with_scene(prepared, formats::irradiance_view(prepared.loaded->scene, receiver, options.size), "choose a smaller --size");
+  ProgressDisplay display(progress_style(false), {name, prepared.preset.name}, {});
+  const job::Snapshot last = run::render_picture(lit, context, [&](const job::Progress& progress) {
     if (interrupted.stop_requested()) throw Error(ErrorKind::interrupted, "export", "was interrupted", "nothing is written");
-    job->advance();
-    display.update(job->progress());
-  }
-  display.finish(job->progress());
-  run::Caustic caustic(lit.loaded->scene, receiver, *job->snapshot().picture);
+    display.update(progress);
+    return true;
+  });
+  display.finish(last.progress);
+  formats::Caustic caustic(lit.loaded->scene, receiver, *last.picture);
   if (!(caustic.watts > 0)) return std::nullopt;
   return caustic;
 }
@@ -102,25 +105,26 @@ void export_scene(const ExportOptions& options, const std::stop_token& interrupt
       options.run.folder.empty() ? fs::path("out") / (preset::stem_of(options.run.preset) + "-export") : options.run.folder;
   const preset::Preset preset = caustics_only(options, asked);
   preset::at_origins(preset, [&] {
-    const run::Prepared prepared = run::prepare(preset, nullptr, {interrupted, {}});
-    const std::vector<run::Receiver> receivers = chosen(options, prepared.loaded->scene);
+    const Watch watch{interrupted, {}};
+    const run::Prepared prepared = run::prepare(preset, nullptr, watch);
+    const std::vector<formats::Receiver> receivers = chosen(options, prepared.loaded->scene);
     if (prepared.plan->layers == 0) throw bad_input(preset.source, "has no caustic: " + no_photons(*prepared.plan));
-    Shared shared;
-    const compute::Context& context = device_of(options.run, shared);
-    const run::ClaimedFolder claimed(folder, true, run::content_of_export());
-    const double white =
-        asked.white != 0 ? asked.white : run::fitted_white(run::prepare(asked, nullptr, {interrupted, {}}), context, {interrupted, {}});
-    std::vector<run::Caustic> caustics;
+    run::DeviceOnDemand device(device_opener(options.run.device));
+    const compute::Context& context = device.context();
+    const run::ClaimedFolder claimed(folder, true, {"an export", {formats::list_file}});
+    std::optional<run::Prepared> lender = prepared;
+    const double white = asked.white ? *asked.white : run::fitted_white(asked, lender, device, watch);
+    std::vector<formats::Caustic> caustics;
     std::vector<std::string> notes = prepared.plan->notes;
-    for (const run::Receiver& receiver : receivers)
+    for (const formats::Receiver& receiver : receivers)
       if (auto caustic = caustic_on(options, prepared, receiver, context, interrupted))
         caustics.push_back(std::move(*caustic));
       else
         notes.push_back(fmt::format("'{}' has no picture: no light comes to it through glass or from a mirror",
                                     name_of(prepared.loaded->scene, receiver)));
-    std::ranges::move(run::write_export(folder, prepared.loaded->scene, asked, caustics, white), std::back_inserter(notes));
+    std::ranges::move(formats::write_export(folder, prepared.loaded->scene, asked, caustics, white), std::back_inserter(notes));
     for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
-    for (const run::Caustic& caustic : caustics)
+    for (const formats::Caustic& caustic : caustics)
       fmt::print("{}: {:.4g} luminous watts on '{}'\n", (folder / caustic.file).string(), caustic.watts,
                  name_of(prepared.loaded->scene, caustic.receiver));
     fmt::print("{}\n", (folder / "scene.glb").string());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid import`: a glTF, Mitsuba or PBRT scene as a preset.
-#include "run/import/import.h"
+#include "formats/import/import.h"
 #include "base/files.h"
 #include "cli/verb.h"
 
@@ -22,7 +22,7 @@ void import_scene(const ImportOptions& options)
   const fs::path preset = options.output.empty() ? fs::path(options.file.filename()).replace_extension(".json") : options.output;
   if (!options.replace && is_there(preset))
     throw bad_input(preset.string(), "is there already", {}, "choose another file with -o, or --replace it");
-  const run::Imported imported = run::import_scene(options.file, preset);
+  const formats::Imported imported = formats::import_scene(options.file, preset);
   for (const std::string& note : imported.notes) fmt::print(stderr, "note: {}\n", note);
   fmt::print("{}\n", imported.preset.string());
 }

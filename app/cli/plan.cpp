@@ -4,7 +4,7 @@
 #include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/prepare.h"
 
 #include <fmt/format.h>
 

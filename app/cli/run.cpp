@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid run`: renders a preset, or each run of a sweep, into a folder; can be interrupted, killed and resumed.
-#include "run/run.h"
 #include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "base/interrupts.h"
@@ -9,6 +8,9 @@
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "report/data.h"
+#include "run/exposure.h"
+#include "run/folder.h"
+#include "run/prepare.h"
 #include "mpi/ranks.h"
 
 #include <fmt/format.h>
@@ -77,28 +79,27 @@ void put_in_order(std::vector<double>& times)
 
 /// Puts a number in place of "auto": rank 0's. The runs of a sweep and the frames of an animation have that of the first, so that their
 /// pictures can be compared; a run that goes on has its own.
-void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared, const Communicator& communicator)
+void fit_white(const RunOptions& options, Target& target, const std::stop_token& interrupted, RunSeries& series, const Communicator& communicator)
 {
-  if (target.preset.white != 0) return;
+  if (target.preset.white) return;
   if (communicator.is_root()) {
-    if (const auto own = options.resume ? run::white_of_run(target.folder) : std::nullopt) shared.white = own;
-    if (!shared.white) {
+    if (const auto own = options.resume ? run::white_of_run(target.folder) : std::nullopt) series.white = own;
+    if (!series.white) {
       const preset::Preset first = target.preset.animation ? preset::at_frame(target.preset, 0) : target.preset;
-      preset::at_origins(first, [&] {
-        shared.prepared = run::prepare(first, shared.prepared ? &*shared.prepared : nullptr, {interrupted, {}});
-        shared.white = run::fitted_white(*shared.prepared, device_of(options, shared), {interrupted, {}});
+      series.white = preset::at_origins(first, [&] {
+        return run::fitted_white(first, series.run.prepared, series.run.device, {interrupted, {}});
       });
-      fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *shared.white);
+      fmt::print(stderr, "note: {}: white {} fits the first picture\n", target.label, *series.white);
     }
   }
-  target.preset.white = communicator.broadcast(shared.white.value_or(0));
+  target.preset.white = communicator.broadcast(series.white);
 }
 
-void run_one(const RunOptions& options, Target& target, const std::stop_token& interrupted, Shared& shared)
+void run_one(const RunOptions& options, Target& target, const std::stop_token& interrupted, RunSeries& series)
 {
-  const Communicator communicator(shared.ranks);
-  fit_white(options, target, interrupted, shared, communicator);
-  if (target.preset.animation) return render_animation(options, target, interrupted, shared);
+  const Communicator communicator(series.ranks);
+  fit_white(options, target, interrupted, series, communicator);
+  if (target.preset.animation) return render_animation(options, target, interrupted, series);
   if (!options.frames.empty()) throw bad_input("--frames", "the preset has no animation", "expected one with the section 'animation'");
   const auto done = options.resume && communicator.is_root() ? run::finished_run(target.folder, target.preset) : std::nullopt;
   if (done && !done->changed.empty())
@@ -108,14 +109,14 @@ void run_one(const RunOptions& options, Target& target, const std::stop_token& i
     fmt::print(stderr, "{}: this run is finished\n", target.label);
     return report_result(options, target, done->progress, true);
   }
-  preset::at_origins(target.preset, [&] { render(options, target, interrupted, shared); });
+  preset::at_origins(target.preset, [&] { render(options, target, interrupted, series); });
 }
 
-void run_all(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared)
+void run_all(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, RunSeries& series)
 {
   for (Target& target : targets) {
     if (&target != &targets.front()) write_order(targets);
-    run_one(options, target, interrupted, shared);
+    run_one(options, target, interrupted, series);
   }
 }
 
@@ -135,12 +136,13 @@ void require_same_runs(const RunOptions& options, const std::vector<Target>& tar
 }
 
 /// Of a sweep each rank does the next run, alone, whenever it is free.
-void distribute_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, Shared& shared,
+void distribute_runs(const RunOptions& options, std::vector<Target>& targets, const std::stop_token& interrupted, RunSeries& series,
                const std::shared_ptr<mpi::Ranks>& ranks)
 {
   const Communicator communicator(ranks);
-  for (Target& target : targets) fit_white(options, target, interrupted, shared, communicator);
-  require_same(options, targets.front().preset, interrupted, shared, *ranks);
+  for (Target& target : targets) fit_white(options, target, interrupted, series, communicator);
+  run::ReadyRun& run = series.run;
+  run::require_same(*ranks, run::prepare_next(run, targets.front().preset, {interrupted, {}}), run.device.context());
   const fs::path folder = targets.front().folder.parent_path();
   if (communicator.is_root()) {
     fs::create_directories(folder);
@@ -148,19 +150,20 @@ void distribute_runs(const RunOptions& options, std::vector<Target>& targets, co
   }
   require_shared(*ranks, folder / report::sweep_file);
   ranks->distribute(static_cast<std::int64_t>(targets.size()),
-              [&](std::int64_t number) { run_one(options, targets[static_cast<std::size_t>(number)], interrupted, shared); });
+              [&](std::int64_t number) { run_one(options, targets[static_cast<std::size_t>(number)], interrupted, series); });
 }
 
 void run_preset(const RunOptions& options, const std::stop_token& interrupted, const std::shared_ptr<mpi::Ranks>& ranks)
 {
   std::vector<Target> targets = targets_of(options);
-  Shared shared;
-  if (!ranks) return run_all(options, targets, interrupted, shared);
-  shared.device_of_several = ranks->number_on_host();
+  compute::DeviceOptions device = options.device;
+  if (ranks) device.turn = ranks->number_on_host(); // each its own of the devices that --device may mean, counted around
+  RunSeries series{.ranks = nullptr, .run = run::ReadyRun(device_opener(std::move(device)))};
+  if (!ranks) return run_all(options, targets, interrupted, series);
   require_same_runs(options, targets, *ranks);
-  if (targets.size() > 1) return distribute_runs(options, targets, interrupted, shared, ranks);
-  shared.ranks = ranks;
-  run_one(options, targets.front(), interrupted, shared);
+  if (targets.size() > 1) return distribute_runs(options, targets, interrupted, series, ranks);
+  series.ranks = ranks;
+  run_one(options, targets.front(), interrupted, series);
 }
 
 /// Where one rank fails all end. What is wrong with the command rank 0 says for all of them.

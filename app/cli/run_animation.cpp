@@ -6,7 +6,9 @@
 #include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/animation.h"
+#include "run/folder.h"
+#include "run/prepare.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -37,9 +39,9 @@ std::pair<int, int> frames_of(const std::string& text, int frames)
 
 class Frames {
 public:
-  Frames(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared)
-      : options_(options), target_(target), interrupted_(interrupted), shared_(shared), animation_(target.preset.animation.value()),
-        ranks_(std::exchange(shared.ranks, nullptr)), range_(frames_of(options.frames, animation_.frames))
+  Frames(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series)
+      : options_(options), target_(target), interrupted_(interrupted), series_(series), animation_(target.preset.animation.value()),
+        ranks_(std::exchange(series.ranks, nullptr)), range_(frames_of(options.frames, animation_.frames))
   {
   }
 
@@ -47,7 +49,8 @@ public:
   {
     for (int frame = range_.first; frame <= range_.second; ++frame)
       preset::at_frame(target_.preset, frame); // what cannot be is said at once
-    if (ranks_) require_same(options_, target_.preset, interrupted_, shared_, *ranks_);
+    run::ReadyRun& run = series_.run;
+    if (ranks_) run::require_same(*ranks_, run::prepare_next(run, target_.preset, {interrupted_, {}}), run.device.context());
     begin();
     if (ranks_)
       distribute_frames();
@@ -73,16 +76,17 @@ private:
   void begin()
   {
     preset::at_origins(target_.preset, [&] {
-      shared_.prepared = run::prepare(target_.preset, shared_.prepared ? &*shared_.prepared : nullptr, {interrupted_, {}});
-      require_memory(*shared_.prepared, device_of(options_, shared_), ranks_); // what cannot be leaves no folder
+      run::ReadyRun& run = series_.run;
+      const run::Prepared& prepared = run::prepare_next(run, target_.preset, {interrupted_, {}});
+      run::require_memory(prepared, run.device.context(), ranks_); // what cannot be leaves no folder
     });
     if (!is_root()) return;
     claimed_.emplace(target_.folder, options_.frames.empty()); // others may render the other frames
     if (options_.resume || !options_.frames.empty()) {
       run::remove_frames(target_.folder, animation_.frames);
-      run::write_settings(target_.folder, *shared_.prepared);
+      run::write_settings(target_.folder, *series_.run.prepared);
     } else
-      run::begin_run(target_.folder, *shared_.prepared);
+      run::begin_run(target_.folder, *series_.run.prepared);
   }
 
   void render_one(int frame)
@@ -95,9 +99,9 @@ private:
       if (options_.json) report_result(options_, target, done->progress, true);
       return;
     }
-    if (done && shared_.notes.insert(done->changed).second)
+    if (done && series_.notes.insert(done->changed).second)
       fmt::print(stderr, "note: {}: {}: finished frames start anew\n", target_.label, done->changed);
-    preset::at_origins(target.preset, [&] { render(options_, target, interrupted_, shared_); });
+    preset::at_origins(target.preset, [&] { render(options_, target, interrupted_, series_); });
     ++rendered_;
   }
 
@@ -131,7 +135,7 @@ private:
   const RunOptions& options_;
   const Target& target_;
   std::stop_token interrupted_;
-  Shared& shared_;
+  RunSeries& series_;
   const preset::Animation& animation_;
   std::shared_ptr<mpi::Ranks> ranks_; ///< null: this process alone renders all frames
   std::pair<int, int> range_;
@@ -141,9 +145,9 @@ private:
 
 } // namespace
 
-void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted, Shared& shared)
+void render_animation(const RunOptions& options, const Target& target, const std::stop_token& interrupted, RunSeries& series)
 {
-  Frames(options, target, interrupted, shared)();
+  Frames(options, target, interrupted, series)();
 }
 
 } // namespace nephroid::cli

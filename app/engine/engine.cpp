@@ -46,7 +46,7 @@ std::string_view name_of(const Engine& engine) { return engine.settings().name; 
 bool adoptable(const preset::Preset& before, const preset::Preset& now)
 {
   const Engine& engine = engine_of(before);
-  return now.white != 0 && engine.adoptable && &engine == &engine_of(now) && engine.adoptable(before, now);
+  return now.white && engine.adoptable && &engine == &engine_of(now) && engine.adoptable(before, now);
 }
 
 } // namespace nephroid::engine

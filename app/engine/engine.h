@@ -49,7 +49,7 @@ struct PictureEdit {
 
 struct Engine {
   /// Their name is the word in a preset's "engine", and the folder in kernels/ that has the engine's own kernels. What their description
-  /// calls a file (preset::Text::file) is read: a run is bound to what it held (run/run.h).
+  /// calls a file (preset::Text::file) is read: a run is bound to what it held (run/content.h).
   const preset::SettingsType& (*settings)();
 
   /// Of what its jobs save: another number where they save it in another way. Only a state of this version is loaded again.

@@ -28,7 +28,7 @@ class EnvironmentJob final : public job::Job {
 public:
   EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
       : preset_(preset), width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
-        sphere_white_(plan.render ? 0.2 : preset.white), stop_(preset.stop),
+        sphere_white_(plan.render ? 0.2 : preset.white.value()), stop_(preset.stop),
         // Where there is no light the bake is all, and the preset's passes are directions.
         baking_(plan.task, plan.key, plan.bake_file, !plan.bakes,
                 !plan.render && stop_.passes ? static_cast<std::size_t>(*stop_.passes) : plan.task->directions.size(), context),
@@ -142,7 +142,7 @@ public:
       photons_.end();
       bake_seconds_ = render_seconds_ = photon_seconds_ = 0;
     }
-    photons_.set_white(preset.white);
+    photons_.set_white(preset.white.value());
     preset_ = preset;
     return true;
   }

@@ -176,7 +176,7 @@ std::string glass_view(const Layout& layout, const std::vector<Target>& targets,
   scene.lights.push_back(sun);
   scene.environment.emplace(); // what glass reflects
   scene.environment->type = preset::Environment::Type::constant;
-  scene.environment->radiance = 0.3 * view.white;
+  scene.environment->radiance = 0.3 * view.white.value();
   return preset::to_json(view) + "\n";
 }
 

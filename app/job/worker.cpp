@@ -63,6 +63,8 @@ struct Worker::Impl {
   bool cancelled = false, paused = false, ending = false;
   bool paused_since_adoption = false; ///< by a pause() after the newest adopt(): so begins what begins in its stead
   std::chrono::milliseconds interval{100};
+  Observer nobody;
+  Observer* observer = &nobody;
   bool has_job = false;                      ///< one that could adopt: in hand, or to come from `next`
   std::optional<std::array<int, 2>> watched; ///< the pixel of watch_spectrum()
   bool watch_changed = false;                ///< the thread has not told its spectrum yet
@@ -236,6 +238,7 @@ struct Worker::Impl {
         continue;
       }
       job.advance();
+      observer->stepped(job);
       Clock::time_point due = Clock::time_point::max(); // nobody waits for the picture of a job that was replaced
       update(generation, [&, progress = job.progress()] {
         status.progress = progress;
@@ -247,6 +250,7 @@ struct Worker::Impl {
       }
     }
     if (is_wanted(generation)) publish(generation, job);
+    observer->ended(job);
     return job.finished() ? State::finished : State::cancelled;
   }
 
@@ -280,11 +284,13 @@ struct Worker::Impl {
       const std::unique_ptr<Job> job = stopped() ? nullptr : make();
       if (!job || stopped())
         set_state(generation, State::cancelled);
-      else
+      else {
+        observer->begun(*job);
         do {
           const State state = advance(generation, *job);
           if (state != State::failed) set_state(generation, state);
         } while (wait_for_adoption(generation, *job));
+      }
     } catch (...) {
       const Error error = error_of(std::current_exception());
       if (error.kind() == ErrorKind::interrupted && stopped())
@@ -396,6 +402,12 @@ void Worker::set_snapshot_interval(std::chrono::milliseconds interval)
 {
   const std::lock_guard lock(impl_->mutex);
   impl_->interval = interval;
+}
+
+void Worker::set_observer(Observer* observer)
+{
+  const std::lock_guard lock(impl_->mutex);
+  impl_->observer = observer;
 }
 
 void Worker::wait()

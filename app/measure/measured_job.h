@@ -10,7 +10,7 @@
 
 namespace nephroid::measure {
 
-/// The picture that others are measured against, and how far it is off itself. run/run.h finds or renders one.
+/// The picture that others are measured against, and how far it is off itself. run/reference.h finds or renders one.
 struct Reference {
   int width = 0, height = 0;
   std::vector<float> rgb;                    ///< linear sRGB, 3 a pixel

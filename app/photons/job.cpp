@@ -53,7 +53,7 @@ class PassesJob final : public PhotonJob, public job::SpectrumSource {
 public:
   PassesJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
             const compute::Context& context)
-      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white,
+      : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white.value(),
                plan.estimates_error ? 2u : 1u},
         preset_(preset), passes_(plan.tables.batches), preview_(world_, preview_edges(plan, scene)),
         development_(world_, passes_, preview_, make_smoothing(plan, scene, bvh),
@@ -160,7 +160,7 @@ public:
     if (!world_.relighting || !engine::adoptable(preset_, preset)) return false;
     change_light(*world_.relighting, world_, layer_light(preset));
     preset_ = preset;
-    world_.white = preset.white;
+    world_.white = preset.white.value();
     passes_.begin_energy();
     return true;
   }

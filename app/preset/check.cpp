@@ -134,7 +134,7 @@ void check_animation(const Preset& preset, const Where& where)
 /// A reference that shares a seed with the run would share its noise, and call it right; one of another white is another picture.
 void check_reference(const Preset& preset, const Where& where)
 {
-  if (preset.white == 0 && preset.reference && preset.reference->type == Reference::Type::file)
+  if (!preset.white && preset.reference && preset.reference->type == Reference::Type::file)
     throw bad_input(where("/white"), "is \"auto\", and the reference is a picture with a white of its own",
                     "expected the number that the reference was made with");
   if (!preset.reference || preset.reference->type != Reference::Type::recipe) return;

@@ -74,7 +74,7 @@ void describe(Fields& v, Preset& p)
   v.field("unit", "What one unit of length is.", p.unit);
   v.field("seed", "Seed of the random numbers: the same seed gives the same bits.", p.seed, {.bounds = within(0, 18446744073709551615.0)});
   v.field("white", "The luminance Y (without the factor 683) that becomes 1 in the picture; \"auto\": fitted to the first picture.",
-          p.white, {.unit = "W/(m^2 sr)", .bounds = within(1e-12, 1e12), .zero_word = "auto"});
+          p.white, {.unit = "W/(m^2 sr)", .bounds = within(1e-12, 1e12), .none_word = "auto"});
   v.field("scene", "What there is to see.", p.scene);
   v.settings(p.settings);
   v.field("stop", "When the run is done.", p.stop);

@@ -57,7 +57,7 @@ struct Field {
   Text text = Text::text;         ///< of a string
   Names names = Names::nothing;
   bool bare_number = false;        ///< of a list of numbers: a number stands for a list of one
-  std::string_view zero_word = {}; ///< of a number: the word for 0, which is outside of its bounds
+  std::string_view none_word = {}; ///< of an optional number: what JSON has where there is none, in place of null
   bool required = false;           ///< no default is sensible
 };
 

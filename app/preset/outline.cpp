@@ -16,8 +16,8 @@ Outline outline_of(const Member& member)
   o.chooses = member.chooses();
   o.is_engine_settings = member.role == Role::section || member.role == Role::recipe;
   const ValueType* type = &member.value.type();
-  o.optional = type->kind == Kind::optional;
-  if (o.optional) type = type->item;
+  o.optional = type->kind == Kind::optional && o.field.none_word.empty();
+  if (type->kind == Kind::optional) type = type->item;
   o.kind = type->kind;
   o.words = type->words;
   o.size = type->size;

@@ -224,7 +224,9 @@ struct Preset {
   std::string description; ///< one line for `nephroid presets`
   Unit unit = Unit::m;
   std::uint64_t seed = 1;
-  double white = 1; ///< the luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture; 0: "auto" (run::fitted_white)
+  /// The luminance Y (W m^-2 sr^-1, no factor 683) that becomes 1 in the picture; nothing: "auto", which is a number once a run is ready
+  /// (run::fitted_white).
+  std::optional<double> white = 1;
   Scene scene;
   Settings settings; ///< of its engine
   Stop stop;

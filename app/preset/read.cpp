@@ -161,8 +161,9 @@ private:
     if (kind == Kind::object) return read_object(json, pointer, value);
     if (kind == Kind::map) return read_map(json, pointer, f, value);
     if (kind == Kind::optional) { // null is "not given": a child can take back what its parent gave
-      value.resize(json.is_null() ? 0 : 1);
-      if (!json.is_null()) read_value(json, pointer, f, value[0]);
+      const bool is_none = f.none_word.empty() ? json.is_null() : json == f.none_word;
+      value.resize(is_none ? 0 : 1);
+      if (!is_none) read_value(json, pointer, f, value[0]);
     } else if (kind == Kind::boolean) {
       if (!json.is_boolean()) refuse(json, pointer, expected(f, value.type()));
       value.as<bool>() = json.get<bool>();
@@ -172,9 +173,8 @@ private:
 
   void read_number(const Json& json, const std::string& pointer, const Field& f, const Value& value) const
   {
-    const bool is_zero = !f.zero_word.empty() && json == f.zero_word;
-    if (!is_zero && (!json.is_number() || !f.bounds.contain(json.get<double>()))) refuse(json, pointer, expected_number(f));
-    value.as<double>() = is_zero ? 0 : json.get<double>();
+    if (!json.is_number() || !f.bounds.contain(json.get<double>())) refuse(json, pointer, expected_number(f));
+    value.as<double>() = json.get<double>();
   }
 
   void read_integer(const Json& json, const std::string& pointer, const Field& f, const Value& value) const

@@ -117,7 +117,7 @@ private:
   {
     const Kind kind = type.kind;
     if (kind == Kind::boolean) return {{"type", "boolean"}};
-    if (!f.zero_word.empty()) return {{"anyOf", {number_schema("number", f.bounds), {{"const", f.zero_word}}}}};
+    if (!f.none_word.empty()) return {{"anyOf", {number_schema("number", f.bounds), {{"const", f.none_word}}}}};
     if (kind == Kind::integer || kind == Kind::number) return number_schema(kind == Kind::integer ? "integer" : "number", f.bounds);
     if (kind == Kind::text) return text_schema(f.text);
     if (kind == Kind::word) return words_schema(type.words);

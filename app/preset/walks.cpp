@@ -55,8 +55,8 @@ Json object_of(const Value& value)
   for (const Member& member : value.members()) {
     const bool absent = !member.value.exists() || (member.role == Role::recipe && member.value.count() == 0);
     if (absent) continue;
-    const bool is_word = !member.field.zero_word.empty() && member.value.as<double>() == 0;
-    object[std::string(member.field.name)] = is_word ? Json(member.field.zero_word) : as_json(member.value);
+    const bool is_word = !member.field.none_word.empty() && member.value.count() == 0;
+    object[std::string(member.field.name)] = is_word ? Json(member.field.none_word) : as_json(member.value);
   }
   return object;
 }
@@ -79,7 +79,7 @@ Json as_json(const Value& value)
 
 std::string expected_number(const Field& f)
 {
-  return "a number" + in_range(f.bounds) + in_unit(f.unit) + (f.zero_word.empty() ? "" : fmt::format(" or \"{}\"", f.zero_word));
+  return "a number" + in_range(f.bounds) + in_unit(f.unit) + (f.none_word.empty() ? "" : fmt::format(" or \"{}\"", f.none_word));
 }
 
 std::string expected_count(const Count& count)

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "run/animation.h"
+
 #include "base/files.h"
 #include "base/numbers.h"
 #include "image/image.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/content.h"
+#include "run/folder.h"
 
 #include <fmt/format.h>
 

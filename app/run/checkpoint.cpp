@@ -2,12 +2,14 @@
 // checkpoint.bin: a header, the job's own bytes, and a hash of everything before it, written and read piece by piece. A file that was cut,
 // changed or made for another preset, mesh or spectrum, or on another device, is refused; because it is written whole, kill -9 leaves the
 // checkpoint before or the new one, never half of one.
+#include "run/checkpoint.h"
+
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/hashed_bytes.h"
 #include "engine/engine.h"
 #include "preset/settings_type.h"
-#include "run/run.h"
+#include "run/content.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/run.h"
+#include "run/content.h"
 
 #include "base/hashed_bytes.h"
 #include "engine/engine.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// "white": "auto" becomes a number before anything else is done, so that checkpoints, references, frames and files know numbers only, and a
-// run of that number has the same bits.
-#include "run/run.h"
+#include "run/exposure.h"
 
 #include "measure/lab.h"
+#include "preset/settings_type.h"
 
 #include <fmt/format.h>
 
@@ -44,11 +43,10 @@ double white_for(const job::Picture& picture)
   return middle > 0 ? std::clamp(std::stod(fmt::format("{:.1e}", 2 * middle)), 1e-12, 1e12) : 1;
 }
 
-double fitted_white(const Prepared& prepared, const compute::Context& context, const Watch& watch)
+double fitted_white(preset::Preset preset, std::optional<Prepared>& lender, DeviceOnDemand& device, const Watch& watch)
 {
   // The engine's pictures may be bright as they are.
-  if (std::ranges::count(prepared.preset.settings.type().without, "white") > 0) return 1;
-  preset::Preset preset = prepared.preset;
+  if (std::ranges::count(preset.settings.type().without, "white") > 0) return 1;
   preset.white = 1;
   preset.stop = {};
   preset.stop.passes = 1;
@@ -56,13 +54,16 @@ double fitted_white(const Prepared& prepared, const compute::Context& context, c
   auto& [width, height] = preset.scene.camera.resolution;
   const double scale = std::min(1.0, longest_edge / static_cast<double>(std::max(width, height)));
   for (int* edge : {&width, &height}) *edge = std::max(1, static_cast<int>(std::lround(*edge * scale)));
-  const Prepared small = prepare(preset, &prepared);
-  const std::unique_ptr<job::Job> job = make_job(small, context);
-  while (job->progress().step < 1 && !job->finished()) {
-    watch.begin("fitting white to a small picture");
-    job->advance();
-  }
-  return white_for(*job->snapshot().picture);
+  lender.emplace(prepare(preset, lender ? &*lender : nullptr, watch));
+  const compute::Context& context = device.context(watch);
+  const compute::TellOfCompiling telling(context, [&] { watch.begin("compiling kernels"); });
+  const auto begin_step = [&] { watch.begin("fitting white to a small picture"); };
+  begin_step();
+  const job::Snapshot first = render_picture(*lender, context, [&](const job::Progress& progress) {
+    begin_step();
+    return progress.step < 1;
+  });
+  return white_for(*first.picture);
 }
 
 } // namespace nephroid::run

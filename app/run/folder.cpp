@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The folder of a run, before and while it runs: whose it is, that it can be written to, that it holds one run's files only.
+#include "run/folder.h"
+
 #include "base/files.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/animation.h"
+#include "run/content.h"
+#include "run/write_run.h"
 
 #include <nlohmann/json.hpp>
 

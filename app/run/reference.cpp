@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cached reference is an EXR file named by the hash of all that it depends on. Beside the mean of its two seeds it holds the first of
 // the two as further channels: their distance is the noise floor, also of a mask that is given later.
-#include "run/run.h"
+#include "run/reference.h"
 
 #include "base/build_info.h"
 #include "base/files.h"
@@ -12,6 +12,7 @@
 #include "measure/read_picture.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"
+#include "run/content.h"
 
 #include <fmt/format.h>
 
@@ -121,19 +122,17 @@ std::vector<float> rendered_seed(const Prepared& prepared, const compute::Contex
                                  const std::stop_token& stop, const ReferenceProgress& report)
 {
   const Prepared recipe = prepare(recipe_preset(prepared.preset, seed), &prepared);
-  const std::unique_ptr<job::Job> job = make_job(recipe, context);
   if (const std::string changed = changed_input(prepared.plan->inputs, recipe.plan->inputs); !changed.empty())
     throw failed(Place(prepared.preset.source) / "reference", "cannot be rendered: " + changed, "", "start again");
-  while (!job->finished()) {
+  const job::Snapshot last = render_picture(recipe, context, [&](const job::Progress& now) {
     if (stop.stop_requested())
       throw Error(ErrorKind::interrupted, prepared.preset.source, "interrupted while the reference was rendered; nothing of it is kept");
-    job->advance();
-    const job::Progress now = job->progress();
     if (seconds == 0) require_time(prepared, now);
     report((seconds > 0 ? 0.5 : 0) + 0.5 * now.fraction, seconds + now.work_seconds);
-  }
-  seconds += job->progress().work_seconds;
-  return job->snapshot().picture->rgb;
+    return true;
+  });
+  seconds += last.progress.work_seconds;
+  return last.picture->rgb;
 }
 
 void write_reference(const fs::path& file, const Prepared& prepared, const std::vector<float>& first, const std::vector<float>& second)

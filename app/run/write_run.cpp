@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The files of a run. What the same preset and seed always give (image.exr, preset.json, plan.json) holds no time, no date and no
 // thread count, so that equal runs are equal files; what differs from run to run is in run.json.
+#include "run/write_run.h"
+
 #include "base/build_info.h"
 #include "base/files.h"
 #include "base/json_output.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
 #include "report/data.h"
-#include "run/run.h"
+#include "run/folder.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -70,7 +72,7 @@ std::string run_json(const Prepared& prepared, const compute::DeviceInfo& device
   Json all{{"name", prepared.preset.name},
            {"engine", prepared.plan->engine},
            {"seed", prepared.preset.seed},
-           {"white", prepared.preset.white},
+           {"white", prepared.preset.white.value()},
            {"version", version()},
            {"commit", commit()},
            {"compiler", compiler()},

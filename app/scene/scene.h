@@ -71,7 +71,7 @@ struct Camera {
   double tan_x = 1, tan_y = 1;
   int width = 0, height = 0;
   std::vector<int> inside; ///< dielectric objects that contain it, outermost first
-  int receiver = -1;       ///< a flat object: only the light on it is seen, through whatever stands before it (run/export/receiver.h)
+  int receiver = -1;       ///< a flat object: only the light on it is seen, through whatever stands before it (formats/export/receiver.h)
 
   std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };

@@ -170,13 +170,17 @@ _runs: _weakref.WeakSet[Run] = _weakref.WeakSet()
 class Run:
     """A run that works in the background; start() gives one. Leaving a `with` block stops it and frees its device.
 
-    Arrays show the core's memory, without a copy, and cannot be written to. They stay as they are, however the run goes
-    on.
+    folder: where it keeps the files of `nephroid run`, a checkpoint among them; None: nowhere.
+
+    Arrays show the core's memory, without a copy, and cannot be written to. They stay as they are, however the run goes on.
     """
 
-    def __init__(self, preset: Preset, device: str = "") -> None:
+    def __init__(self, preset: Preset, device: str = "", folder: str | _os.PathLike[str] | None = None, resume: bool = False) -> None:
+        if resume and folder is None:
+            raise BadInput("resume: there is nothing to go on from without a folder; expected folder='out/NAME' too")
         self.preset = preset
-        self._core = _core.Run(preset._core, device)
+        self.folder = folder
+        self._core = _core.Run(preset._core, device, "" if folder is None else str(folder), resume)
         _runs.add(self)
 
     # How it goes
@@ -342,14 +346,16 @@ def _close_all() -> None:
             pass
 
 
-def start(preset: Preset | str, device: str = "") -> Run:
-    """Begins a run and returns at once. device: an index or a part of a name, of devices()."""
-    return Run(preset if isinstance(preset, Preset) else Preset(preset), device)
+def start(preset: Preset | str, device: str = "", folder: str | _os.PathLike[str] | None = None, resume: bool = False) -> Run:
+    """Begins a run and returns at once. device: an index or a part of a name, of devices(). folder: keeps the files of `nephroid run`
+    there, a checkpoint among them, also of a run that is stopped or closed. resume: goes on from the folder's checkpoint, with the same
+    bits as a run that was never stopped; without one it begins."""
+    return Run(preset if isinstance(preset, Preset) else Preset(preset), device, folder, resume)
 
 
-def run(preset: Preset | str, device: str = "") -> Run:
-    """Runs to the preset's own stop. Ctrl-C ends the run."""
-    one = start(preset, device)
+def run(preset: Preset | str, device: str = "", folder: str | _os.PathLike[str] | None = None, resume: bool = False) -> Run:
+    """Runs to the preset's own stop. Ctrl-C ends the run. folder, resume: as for start()."""
+    one = start(preset, device, folder, resume)
     try:
         return one.wait()
     except BaseException:

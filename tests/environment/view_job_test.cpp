@@ -223,7 +223,7 @@ TEST_F(EnvironmentViewJob, AnotherWhiteGoesOn)
 {
   const preset::Preset p = lit();
   preset::Preset brighter = p;
-  brighter.white = 0.5 * p.white;
+  brighter.white = 0.5 * p.white.value();
   const auto job = job_of(p);
   while (job->progress().step < 1) job->advance();
   const double seconds = job->progress().work_seconds;
@@ -319,7 +319,7 @@ TEST_F(EnvironmentViewJob, WithoutLightTheBakeIsShown)
     const auto job = job_of(*p, plan);
     const job::Snapshot made = run(*job);
     const environment::Bake bake = bake_of(*p);
-    EXPECT_EQ(made.picture->rgb, sheet(bake, choose_shown(bake, 128, 96), 128, 96, p->white)->rgb);
+    EXPECT_EQ(made.picture->rgb, sheet(bake, choose_shown(bake, 128, 96), 128, 96, p->white.value())->rgb);
     EXPECT_FALSE(job->adopt(lit()));
   }
 }

@@ -3,7 +3,8 @@
 // file. Only what the job wrote is loaded. A wrong state under a right hash is not asked for: nothing but the program writes that hash.
 #include "base/hashed_bytes.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/checkpoint.h"
+#include "run/prepare.h"
 #include "tests/fuzz/harness.h"
 
 namespace nephroid::fuzz {

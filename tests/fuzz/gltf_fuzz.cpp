@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A glTF scene as JSON or as a .glb, imported with the mesh reader. What comes out is a preset that can be read.
+#include "formats/import/import.h"
 #include "preset/read.h"
-#include "run/import/import.h"
 #include "tests/fuzz/harness.h"
 
 namespace nephroid::fuzz {
@@ -38,7 +38,7 @@ std::string glb(std::string json)
 void read(std::string_view input)
 {
   const fs::path preset = folder() / "imported.json";
-  run::import_gltf(write(input.starts_with("glTF") ? "scene.glb" : "scene.gltf", input), preset);
+  formats::import_gltf(write(input.starts_with("glTF") ? "scene.glb" : "scene.gltf", input), preset);
   try {
     preset::read_preset(preset.string());
   } catch (const Error& refusal) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A PBRT scene, imported. What comes out is a preset that can be read.
+#include "formats/import/import.h"
 #include "preset/read.h"
-#include "run/import/import.h"
 #include "tests/fuzz/harness.h"
 
 namespace nephroid::fuzz {
@@ -9,7 +9,7 @@ namespace nephroid::fuzz {
 void read(std::string_view input)
 {
   const fs::path preset = folder() / "imported.json";
-  run::import_scene(write("scene.pbrt", input), preset);
+  formats::import_scene(write("scene.pbrt", input), preset);
   try {
     preset::read_preset(preset.string());
   } catch (const Error& refusal) {

@@ -2,6 +2,8 @@
 // Runs that are interrupted, killed, resumed, repeated, given one thread or two, a full disk, no HOME: the same bits or a clear line.
 #include "image/image.h"
 #include "measure/run_files.h"
+#include "preset/read.h"
+#include "run/prepare.h"
 #include "tests/support/plate_runs.h"
 #include "tests/support/program_test.h"
 #include "tests/support/test_kernels.h"

@@ -259,7 +259,7 @@ TEST(PixelSpectrum, OfAPlaneUnderAPointIsTheClosedForm)
     expect_truth("pixel spectrum: direct light of a point over its closed form at 600 nm", found[220] / wanted[220], 1, 0.01);
     for (std::size_t w = 0; w < wanted.size(); ++w)
       EXPECT_NEAR(found[w] / found[220], wanted[w] / wanted[220], 1e-6) << "the form does not hang on the samples; " << w + 380 << " nm";
-    expect_colour_of_picture(*job, *spectrum, p.white);
+    expect_colour_of_picture(*job, *spectrum, p.white.value());
   }
 }
 
@@ -294,7 +294,7 @@ TEST(PixelSpectrum, OfLightThroughGlassIsClusterByCluster)
     expect_truth("pixel spectrum: light through a sheet of n = 1 over its closed form at " + std::to_string(nm) + " nm",
                  mean[w] / wanted[w], 1, 0.06);
   }
-  expect_colour_of_picture(*job, *spectrum_of(*job, {7, 8}), p.white);
+  expect_colour_of_picture(*job, *spectrum_of(*job, {7, 8}), p.white.value());
 }
 
 TEST(PixelSpectrum, FollowsAnotherLight)

@@ -4,6 +4,7 @@ not hang."""
 import contextlib
 import importlib.util
 import io
+import json
 import os
 import pickle
 import re
@@ -23,6 +24,11 @@ SMALL = {"scene.camera.resolution": [40, 30], "spectral.photons_per_pass": 20000
 
 def small(passes=2):
     return nephroid.Preset("first-light", {**SMALL, "stop": {"passes": passes}})
+
+
+def run_json(folder):
+    with open(os.path.join(folder, "run.json"), encoding="utf-8") as file:
+        return json.load(file)
 
 
 def child(code):
@@ -86,6 +92,31 @@ class Runs(unittest.TestCase):
             np.testing.assert_array_equal(run.picture(),
                                           nephroid.read_picture(os.path.join(folder, "module", "image.exr")))
             self.assertTrue(os.path.exists(os.path.join(folder, "module", "run.json")))
+
+    def test_going_on_gives_the_same_bits(self):
+        with tempfile.TemporaryDirectory() as folder, nephroid.run(small(6)) as unbroken:
+            out = os.path.join(folder, "out")
+            with nephroid.run(small(2), folder=out) as begun:
+                self.assertEqual((begun.folder, begun.passes), (out, 2))
+                with self.assertRaisesRegex(nephroid.BadInput, "expected folder"):
+                    nephroid.start(small(), resume=True)
+            self.assertTrue(os.path.exists(os.path.join(out, "checkpoint.bin")))
+            with nephroid.run(small(6), folder=out, resume=True) as resumed:
+                np.testing.assert_array_equal(resumed.picture(), unbroken.picture())
+            np.testing.assert_array_equal(nephroid.read_picture(os.path.join(out, "image.exr")), unbroken.picture())
+            with self.assertRaisesRegex(nephroid.BadInput, "another preset or seed.*leave out 'resume'"):
+                nephroid.run(small(6).set("seed", 2), folder=out, resume=True)
+
+    def test_a_stopped_run_leaves_what_it_has(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = os.path.join(folder, "out")
+            with nephroid.start(small(100000), folder=out) as run:
+                run.picture()
+                with self.assertRaisesRegex(nephroid.BadInput, "written into by another"):
+                    nephroid.run(small(), folder=out)
+            with nephroid.start(small(100000), folder=out, resume=True) as resumed:
+                resumed.picture()
+                self.assertGreaterEqual(resumed.progress, run_json(out)["fraction"])
 
     def test_arrays_are_the_cores_memory(self):
         with nephroid.run(small()) as run:

@@ -120,7 +120,7 @@ public:
   plan::Plan plan;                                     ///< but for its notes; set before a run starts, as is
   std::shared_ptr<const measure::Reference> reference; ///< this
   std::optional<Error> refusal;                        ///< and this: of the preset
-  double white = 0;                                    ///< in place of "auto"
+  std::optional<double> white = {};                    ///< in place of "auto"
   std::atomic<int> made{0}, reread{0}, reopened{0};
   std::atomic<bool> changed{false}, broken{false}; ///< the kernels
   std::atomic<bool> reads_on{false};               ///< runs do not come to the end of a file

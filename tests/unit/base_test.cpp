@@ -7,7 +7,7 @@
 #include "cli/verb.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/memory.h"
 #include "tests/support/test.h"
 
 #include <nlohmann/json.hpp>

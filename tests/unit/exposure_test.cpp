@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The white that a picture gets for "auto".
-#include "run/run.h"
+#include "run/exposure.h"
 #include "tests/support/test.h"
 
 namespace nephroid::exposure_test {

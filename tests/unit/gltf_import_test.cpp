@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Importing glTF: small files written here, and what becomes of them against values worked out in comments; and files that are cut, missing
 // their data, or lie about it.
+#include "formats/import/gltf_scene.h"
+#include "formats/import/import.h"
 #include "optics/dispersion.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"
-#include "run/import/gltf_scene.h"
-#include "run/import/import.h"
 #include "scene/scene.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test.h"
@@ -55,9 +55,9 @@ std::string glb(Json json)
 
 class GltfImport : public testing::Test {
 protected:
-  run::Imported import(const std::string& bytes, const std::string& name = "in.gltf")
+  formats::Imported import(const std::string& bytes, const std::string& name = "in.gltf")
   {
-    return run::import_gltf(folder.write(name, bytes), folder.path() / "out.json");
+    return formats::import_gltf(folder.write(name, bytes), folder.path() / "out.json");
   }
   preset::Preset imported(const Json& json)
   {
@@ -73,7 +73,7 @@ protected:
   }
 
   test::TemporaryFolder folder;
-  run::Imported made;
+  formats::Imported made;
 };
 
 TEST_F(GltfImport, ATriangleBecomesAnObjectWithAMeshOfItsOwn)
@@ -132,7 +132,7 @@ TEST_F(GltfImport, EveryTurnIsSaidByThreeAngles)
           const glm::dmat3 turn = scene::rotation({x, y, z});
           const glm::dmat4 matrix{
               glm::dvec4(turn[0] * mirror * 3.0, 0), glm::dvec4(turn[1] * 2.0, 0), glm::dvec4(turn[2], 0), {1, 2, 3, 1}};
-          const auto t = run::transform_of(matrix);
+          const auto t = formats::transform_of(matrix);
           ASSERT_TRUE(t);
           const glm::dmat3 again = scene::rotation(t->rotate_deg);
           for (int column = 0; column < 3; ++column)
@@ -140,8 +140,8 @@ TEST_F(GltfImport, EveryTurnIsSaidByThreeAngles)
               EXPECT_NEAR(again[column][row] * t->scale[static_cast<std::size_t>(column)], matrix[column][row], 1e-9)
                   << x << " " << y << " " << z;
         }
-  EXPECT_FALSE(run::transform_of(glm::dmat4{{1, 0, 0, 0}, {0.5, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}})) << "a shear";
-  EXPECT_FALSE(run::transform_of(glm::dmat4{{1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}})) << "flat";
+  EXPECT_FALSE(formats::transform_of(glm::dmat4{{1, 0, 0, 0}, {0.5, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}})) << "a shear";
+  EXPECT_FALSE(formats::transform_of(glm::dmat4{{1, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}})) << "flat";
 }
 
 TEST_F(GltfImport, AShearedMeshIsWrittenAsItStands)
@@ -175,9 +175,9 @@ TEST_F(GltfImport, CandelaAndLuxBecomeWatts)
   optics::Spectrum equal{}, line{};
   equal.fill(1);
   line[555 - 380] = 2;
-  EXPECT_NEAR(run::lumens_per_watt(equal), 182.0, 0.1);
-  EXPECT_NEAR(run::lumens_per_watt(line), 683, 0.1);
-  const double k = run::lumens_per_watt(optics::illuminant("D65"));
+  EXPECT_NEAR(formats::lumens_per_watt(equal), 182.0, 0.1);
+  EXPECT_NEAR(formats::lumens_per_watt(line), 683, 0.1);
+  const double k = formats::lumens_per_watt(optics::illuminant("D65"));
   EXPECT_NEAR(k, 200, 10); // daylight within 380..780 nm
 
   Json json = triangle();
@@ -203,19 +203,19 @@ TEST_F(GltfImport, CandelaAndLuxBecomeWatts)
   EXPECT_EQ(lights[2].spectrum.type, preset::LightSpectrum::Type::table);
   EXPECT_THAT(lights[2].direction, ElementsAre(DoubleNear(0, 1e-9), DoubleNear(0, 1e-9), DoubleNear(-1, 1e-9)));
   // Its luminance is 0.2126 + 0.7152 * 0.1 + 0.0722 * 0.1 = 0.29134 of white's, whatever its spectrum.
-  EXPECT_NEAR(683 * run::luminous_irradiance(lights[2], {}), 291.34, 0.5);
-  EXPECT_NEAR(683 * run::luminous_irradiance(lights[0], {0, 2, 0}), 25, 1e-6); // 100 cd at 2 m
+  EXPECT_NEAR(683 * formats::luminous_irradiance(lights[2], {}), 291.34, 0.5);
+  EXPECT_NEAR(683 * formats::luminous_irradiance(lights[0], {0, 2, 0}), 25, 1e-6); // 100 cd at 2 m
 }
 
 TEST_F(GltfImport, GlassBendsAsItsAbbeNumberSays)
 {
   // N-BK7: n_d = 1.5168, V_d = 64.17, so n_F - n_C = 0.5168 / 64.17 = 0.0080536.
-  const preset::Dispersion d = run::dispersion_of(1.5168, 20 / 64.17);
+  const preset::Dispersion d = formats::dispersion_of(1.5168, 20 / 64.17);
   ASSERT_EQ(d.type, preset::Dispersion::Type::cauchy);
   const auto n = [&](double um) { return d.coefficients[0] + d.coefficients[1] / (um * um); };
   EXPECT_NEAR(n(0.5875618), 1.5168, 1e-12);
   EXPECT_NEAR(n(0.4861327) - n(0.6562725), 0.0080536, 1e-7);
-  EXPECT_EQ(run::dispersion_of(1.7, 0).n, 1.7);
+  EXPECT_EQ(formats::dispersion_of(1.7, 0).n, 1.7);
 
   Json json = triangle();
   json["materials"][0]["extensions"] =
@@ -280,7 +280,7 @@ TEST_F(GltfImport, GlassAbsorbsAsItsVolumeSays)
   imported(json);
   EXPECT_GT(left(curve_of(), 640, 2), 0.7);
   EXPECT_LT(left(curve_of(), 450, 2), 0.1);
-  const preset::Dispersion clear = run::dispersion_of(1.7, 0.3);
+  const preset::Dispersion clear = formats::dispersion_of(1.7, 0.3);
   EXPECT_NEAR(curve_of().sample(500).n.value(), clear.coefficients[0] + clear.coefficients[1] / 0.25, 1e-12);
 }
 

@@ -3,6 +3,7 @@
 // command line names it.
 #include "plan/plan.h"
 #include "preset/read.h"
+#include "run/folder.h"
 #include "spectral/engine.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/test.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A prepared run that another edit may share: the tree of the same triangles is not built again.
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/prepare.h"
 #include "tests/support/test.h"
 
 namespace nephroid::prepare_test {

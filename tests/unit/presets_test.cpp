@@ -29,16 +29,16 @@ TEST(PresetReading, WhatIsNotGivenHasItsDefault)
 TEST(PresetReading, AWordStandsForAWhiteThatIsFitted)
 {
   const Preset p = parse(R"("white":"auto")");
-  EXPECT_EQ(p.white, 0);
+  EXPECT_EQ(p.white, std::nullopt);
   EXPECT_EQ(nlohmann::json::parse(preset::to_json(p))["white"], "auto");
   EXPECT_TRUE(preset::parse_preset(preset::to_json(p), "a.json") == p);
-  EXPECT_EQ(parse(R"("white":3)", {"white=auto"}).white, 0);
+  EXPECT_EQ(parse(R"("white":3)", {"white=auto"}).white, std::nullopt);
   EXPECT_THROW(parse(R"("white":"auto","reference":"a.exr")"), Error) << "whose white is not known";
   const Preset relit = parse(R"("spectral":{"relight":true})");
   Preset brighter = relit;
   brighter.white = 2;
   EXPECT_TRUE(engine::adoptable(relit, brighter));
-  brighter.white = 0;
+  brighter.white.reset();
   EXPECT_FALSE(engine::adoptable(relit, brighter)) << "it is fitted to a first picture";
 }
 

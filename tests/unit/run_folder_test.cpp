@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a run's folder says of it: whether it is new, claimed, of this preset, and finished.
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/folder.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/test.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Importing Mitsuba and PBRT scenes: one scene written in both, and what becomes of it against values worked out in comments; what is left
 // out; files that are broken.
+#include "formats/import/import.h"
 #include "preset/read.h"
-#include "run/import/import.h"
 #include "tests/support/test.h"
 
 #include <numbers>
@@ -42,7 +42,7 @@ class SceneImport : public testing::Test {
 protected:
   preset::Preset imported(const std::string& text, const std::string& name)
   {
-    made = run::import_scene(folder.write(name, text), folder.path() / "out.json");
+    made = formats::import_scene(folder.write(name, text), folder.path() / "out.json");
     return preset::read_preset(made.preset.string());
   }
   std::string refusal(const std::string& text, const std::string& name)
@@ -52,7 +52,7 @@ protected:
     return line;
   }
   test::TemporaryFolder folder;
-  run::Imported made;
+  formats::Imported made;
 };
 
 TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset)
@@ -72,7 +72,7 @@ TEST_F(SceneImport, OneSceneInBothFormatsIsOnePreset)
     ASSERT_EQ(p.scene.lights.size(), 1u);
     EXPECT_NEAR(p.scene.lights[0].position[0], -2, 1e-9);
     // 10 of the luminance that is white, in every direction; D65 has about 683 / 200 watts to a luminous watt.
-    EXPECT_NEAR(p.scene.lights[0].power_w / p.white, 4 * pi * 10 * 683 / 200, 0.03 * 4 * pi * 10 * 683 / 200);
+    EXPECT_NEAR(p.scene.lights[0].power_w / p.white.value(), 4 * pi * 10 * 683 / 200, 0.03 * 4 * pi * 10 * 683 / 200);
     fs::remove(folder.path() / "out.json");
   }
 }

@@ -108,6 +108,33 @@ TEST(Worker, FinishesWithTheLastSnapshot)
   }
 }
 
+TEST(Worker, TellsItsObserverOfEachStepAndOfTheEndHoweverItComes)
+{
+  struct Counts : Observer {
+    void begun(Job&) override { ++beginnings; }
+    void stepped(Job&) override { ++steps; }
+    void ended(Job& job) override
+    {
+      ++ends;
+      finished = job.finished();
+    }
+    std::atomic<int> beginnings = 0, steps = 0, ends = 0;
+    std::atomic<bool> finished = false;
+  } counts;
+  {
+    Worker worker;
+    worker.set_observer(&counts);
+    worker.start(counting(5));
+    worker.wait();
+    EXPECT_EQ(std::tuple(counts.beginnings.load(), counts.steps.load(), counts.ends.load()), std::tuple(1, 5, 1));
+    EXPECT_TRUE(counts.finished);
+    worker.start(counting(endless));
+    while (counts.steps < 6) std::this_thread::yield();
+  }
+  EXPECT_EQ(counts.ends, 2) << "the worker is gone";
+  EXPECT_FALSE(counts.finished);
+}
+
 TEST(Worker, SnapshotsComeAtTheirInterval)
 {
   Worker worker;

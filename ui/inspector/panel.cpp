@@ -149,7 +149,7 @@ void InspectorPanel::draw_neighbours(const Context& context)
   const HeldPicture picture = enlarged(context);
   const ViewSettings& view_settings = context.view_state.view_settings;
   const std::array<int, 2> pixel = *context.view_state.pixel;
-  const double white = context.preset() ? context.preset()->white : 1;
+  const double white = context.preset() ? context.preset()->white.value_or(1) : 1;
   Neighbours& n = neighbours_;
   constexpr int across = 2 * reach + 1;
   if (picture.owner && (n.owner != picture.owner || n.pixel != pixel || n.view_settings != view_settings || n.white != white)) {
@@ -233,7 +233,8 @@ void InspectorPanel::draw_region(const Context& context)
   }
   const HeldPicture other = context.comparing.other_picture();
   const std::string other_name = context.comparing.comparison().pin == 0 ? "reference" : other.pixels.name;
-  request_statistics(statistics_, context.tasks, {picture, other, other_name, *region, context.preset() ? context.preset()->white : 1});
+  request_statistics(statistics_, context.tasks,
+                  {picture, other, other_name, *region, context.preset() ? context.preset()->white.value_or(1) : 1});
   const auto& statistics = statistics_.newest();
   if (!statistics) return draw_wrapped(colour::quiet_text, "The statistics are being made.");
   if (places_.button("Copy as CSV", "copy region")) ImGui::SetClipboardText(to_csv(*statistics).c_str());

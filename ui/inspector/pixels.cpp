@@ -94,7 +94,7 @@ std::vector<PixelRow> pixel_rows(const Context& context, const std::array<int, 2
   const auto value = [&](std::span<const float> rgb) { return std::array{rgb[at], rgb[at + 1], rgb[at + 2]}; };
   std::vector<PixelRow> rows;
   const auto add = [&](std::string name, const std::array<float, 3>& rgb, bool is_colour) {
-    rows.push_back({std::move(name), rgb, context.preset()->white * measure::luminance(rgb.data()),
+    rows.push_back({std::move(name), rgb, context.preset()->white.value_or(1) * measure::luminance(rgb.data()),
                     is_colour ? measure::lab_of(rgb.data()) : std::array<double, 3>{}, is_colour});
   };
   const auto add_error = [&](std::string name, const std::array<float, 3>& draw) {

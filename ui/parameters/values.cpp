@@ -91,7 +91,7 @@ void ParametersPanel::draw_value(const Outline& o, const Json& value, const std:
     break;
   case Kind::integer:
   case Kind::number: {
-    const std::string word(o.field.zero_word);
+    const std::string word(o.field.none_word);
     const float button = word.empty() ? 0 : ImGui::CalcTextSize(word.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + gap();
     draw_number({o.field.bounds, o.whole, width - button}, value, pointer);
     if (word.empty()) break;

@@ -3,7 +3,7 @@
 // left them.
 #pragma once
 #include "preset/preset.h"
-#include "run/run.h"
+#include "run/prepare.h"
 #include "ui/widgets/panel.h"
 
 #include <span>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panels of engine 1.
-#include "run/run.h"
+#include "run/prepare.h"
 #include "ui/spectral/dispersion/panel.h"
 #include "ui/spectral/spectra/panel.h"
 #include "ui/widgets/panel.h"

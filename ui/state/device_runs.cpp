@@ -2,9 +2,8 @@
 #include "ui/state/device_runs.h"
 
 #include "compute/compute.h"
-#include "measure/measured_job.h"
 #include "preset/origins.h"
-#include "run/run.h"
+#include "run/reference.h"
 
 namespace nephroid::ui {
 namespace {
@@ -29,38 +28,34 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
 
 } // namespace
 
-DeviceRuns::DeviceRuns(compute::DeviceOptions device, LookAround look_around) : options_(std::move(device)), look_around_(look_around)
+DeviceRuns::DeviceRuns(compute::DeviceOptions device, LookAround look_around)
+    : kernels_(device.kernels), look_around_(look_around), run_([device = std::move(device)] { return compute::Context::open(device); })
 {
-  if (!options_.kernels.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
+  if (!kernels_.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
 
 DeviceRuns::~DeviceRuns() = default;
 
 NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch)
 {
-  if (reread_.exchange(false)) previous_.reset();
-  auto prepared = preset::at_origins(preset, [&] { return std::make_unique<run::Prepared>(run::prepare(preset, previous_.get(), watch)); });
-  if (reopen_.exchange(false)) context_.reset();
-  if (!context_) {
-    watch.begin("opening the device");
-    context_ = std::make_unique<compute::Context>(compute::Context::open(options_));
-  }
-  std::optional<compute::TellOfCompiling> telling(std::in_place, *context_, [watch] { watch.begin("compiling kernels"); });
+  if (reread_.exchange(false)) run_.prepared.reset();
+  if (reopen_.exchange(false)) run_.device.close();
   if (watcher_.joinable()) { // the sources are read below: what changed until here is in this run
     const std::lock_guard lock(watching_);
-    seen_ = compute::kernel_times(options_.kernels);
+    seen_ = compute::kernel_times(kernels_);
     changed_ = false;
   }
-  previous_ = std::move(prepared);
-  if (preset.white == 0) previous_->preset.white = run::fitted_white(*previous_, *context_, watch);
-  auto plan = std::make_shared<plan::Plan>(*previous_->plan);
-  std::shared_ptr<const measure::Reference> reference = reference_of(*previous_, *context_, plan->notes);
-  watch.begin("setting up the run");
-  auto job = measure::measured(run::make_job(*previous_, *context_), previous_->preset, reference);
-  telling.reset(); // what a job builds later is short
+  std::vector<std::string> notes;
+  const auto reference = [&](const run::Prepared& prepared, const compute::Context& context) {
+    return reference_of(prepared, context, notes);
+  };
+  preset::at_origins(preset, [&] { run::make_ready(run_, preset, {.watch = watch, .reference = reference}); });
+  auto plan = std::make_shared<plan::Plan>(*run_.prepared->plan);
+  plan->notes.insert(plan->notes.end(), notes.begin(), notes.end());
   std::vector<std::any> seen;
-  if (look_around_) seen = look_around_(preset, previous_->loaded);
-  return {std::move(job), std::move(plan), std::move(reference), std::move(seen), context_->device(), previous_->preset.white};
+  if (look_around_) seen = look_around_(preset, run_.prepared->loaded);
+  return {std::move(run_.job),        std::move(plan), run_.reference, std::move(seen), run_.device.opened().device(),
+          run_.prepared->preset.white};
 }
 
 void DeviceRuns::watch(const std::stop_token& stop)
@@ -68,7 +63,7 @@ void DeviceRuns::watch(const std::stop_token& stop)
   std::unique_lock lock(watching_);
   while (!stop.stop_requested()) {
     stopping_.wait_for(lock, stop, look_at_kernels_every, [] { return false; });
-    compute::KernelTimes now = compute::kernel_times(options_.kernels);
+    compute::KernelTimes now = compute::kernel_times(kernels_);
     if (!seen_ || now == *seen_) continue;
     seen_ = std::move(now);
     changed_ = true;

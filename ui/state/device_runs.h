@@ -3,6 +3,7 @@
 // one run to the next, so that moving the camera loads and builds nothing again. With a kernels folder (--kernels) it watches that.
 #pragma once
 #include "compute/compute.h"
+#include "run/ready.h"
 #include "ui/state/run_in_hand.h"
 
 #include <atomic>
@@ -11,11 +12,6 @@
 #include <mutex>
 #include <optional>
 #include <thread>
-
-namespace nephroid::run {
-struct LoadedScene;
-struct Prepared;
-} // namespace nephroid::run
 
 namespace nephroid::ui {
 
@@ -27,7 +23,7 @@ public:
   /// look_around: null where nobody wants to know what is seen.
   explicit DeviceRuns(compute::DeviceOptions device, LookAround look_around = nullptr);
   ~DeviceRuns() override;
-  /// Reads the scene and builds the job. Throws as run::prepare and compute do.
+  /// Reads the scene and builds the job. Throws as run::make_ready.
   NewRun make(const preset::Preset& preset, const Watch& watch) override;
   void reread_files() override { reread_ = true; }
   void reopen_device() override { reopen_ = true; }
@@ -37,10 +33,9 @@ public:
 private:
   void watch(const std::stop_token& stop);
 
-  compute::DeviceOptions options_;
+  std::filesystem::path kernels_; ///< the kernels folder; empty: none
   LookAround look_around_;
-  std::unique_ptr<compute::Context> context_; ///< opened by the first make(): opening a device takes a while; the worker's thread only
-  std::unique_ptr<run::Prepared> previous_;   ///< the worker's thread only
+  run::ReadyRun run_; ///< the newest one, without its job; the worker's thread only
   std::atomic<bool> changed_{false}, reread_{false}, reopen_{false};
   std::mutex watching_;                      ///< held for a look at the folder
   std::optional<compute::KernelTimes> seen_; ///< by the newest run or look, whichever is later; nothing before the first run

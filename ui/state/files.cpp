@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "preset/differences.h"
 #include "preset/read.h"
-#include "run/run.h"
+#include "run/write_run.h"
 #include "ui/state/tone.h"
 
 #include <fmt/format.h>

@@ -132,7 +132,7 @@ void RunInHand::take_arrival()
   if (!arrival_->run) return;
   newest_ = *std::exchange(arrival_->run, std::nullopt);
   if (arrival_->preset != preset_) newest_.reference.reset(); // it is of another light
-  if (preset_->white == 0 && newest_.white != 0) {
+  if (!preset_->white && newest_.white) {
     preset::Preset fitted = *preset_;
     fitted.white = newest_.white;
     preset_ = std::make_shared<const preset::Preset>(std::move(fitted));

@@ -29,7 +29,7 @@ struct NewRun {
   std::shared_ptr<const measure::Reference> reference; ///< what it is measured against; null where there is none
   std::vector<std::any> seen = {};                     ///< what panels looked for in the loaded scene: RunInHand::seen
   compute::DeviceInfo device = {};                     ///< that it works on
-  double white = 0;                                    ///< of the run, where the preset's is to be fitted
+  std::optional<double> white = {};                    ///< of the run, where the preset's is to be fitted
 };
 
 /// Where the workbench gets its runs from: the program gives ui/state/device_runs.h with a device, tests give jobs of their own.
@@ -110,10 +110,7 @@ public:
   /// What that run is measured against; null where there is nothing.
   const std::shared_ptr<const measure::Reference>& reference() const { return newest_.reference; }
   /// The white that was fitted for the run of the present preset; nothing where that is still to come.
-  std::optional<double> fitted_white() const
-  {
-    return preset_ && preset_->white != 0 && !lent_ && !restart_wanted_ ? std::optional(preset_->white) : std::nullopt;
-  }
+  std::optional<double> fitted_white() const { return preset_ && !lent_ && !restart_wanted_ ? preset_->white : std::nullopt; }
   /// Whether the preset of the run has a reference, which may still be on its way.
   bool has_reference() const { return preset_ && preset_->reference; }
   /// What a panel looked for in the loaded scene of that run (shell/panels.h); null as plan(), and where the run's source did not look.

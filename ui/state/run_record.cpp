@@ -10,7 +10,8 @@
 #include "measure/run_files.h"
 #include "preset/read.h"
 #include "report/data.h"
-#include "run/run.h"
+#include "run/prepare.h"
+#include "run/write_run.h"
 #include "ui/state/files.h"
 
 #include <fmt/format.h>

@@ -55,7 +55,7 @@ bool UndoStack::step(int by)
 void UndoStack::fit_white(double white)
 {
   for (Entry& entry : state_.entries) {
-    if (entry.preset->white != 0) continue;
+    if (entry.preset->white) continue;
     preset::Preset fitted = *entry.preset;
     fitted.white = white;
     entry.preset = std::make_shared<const preset::Preset>(std::move(fitted));

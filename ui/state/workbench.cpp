@@ -268,7 +268,7 @@ void Workbench::carry_out(const command::SavePicture& c)
 PictureToSave Workbench::shown_picture() const
 {
   const Comparison& comparison = comparing_.comparison();
-  const double white = edits_ ? edits_->current().white : 1;
+  const double white = edits_ ? edits_->current().white.value_or(1) : 1;
   if (comparison.flip) return {comparing_.other_picture(), {}, view_state_.view_settings, white, comparing_.why_not()};
   if (!comparison.difference) return {comparing_.picture(), {}, view_state_.view_settings, white, comparing_.why_no_picture()};
   const auto& map = comparing_.difference();
@@ -332,7 +332,7 @@ void Workbench::update(Clock::time_point now)
 {
   look_at_files();
   run_.update(edits());
-  if (const auto white = run_.fitted_white(); white && edits_ && edits_->current().white == 0) {
+  if (const auto white = run_.fitted_white(); white && edits_ && !edits_->current().white) {
     edits_->fit_white(*white);
     messages_.note(fmt::format("white {} fits the first picture", *white));
   }

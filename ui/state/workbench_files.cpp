@@ -5,8 +5,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "engine/engine.h"
+#include "formats/import/import.h"
 #include "preset/read.h"
-#include "run/import/import.h"
 
 #include <fmt/format.h>
 
@@ -109,9 +109,9 @@ void Workbench::import_scene(const std::filesystem::path& file)
       writes_, {"importing " + file.string(), TaskKind::write},
       [file] {
         const std::string stem = file.stem().string();
-        return run::import_scene(file, free_name(file.parent_path() / (stem + "-scene")) / (stem + ".json"));
+        return formats::import_scene(file, free_name(file.parent_path() / (stem + "-scene")) / (stem + ".json"));
       },
-      [this](const run::Imported& scene) {
+      [this](const formats::Imported& scene) {
         messages_.note(scene.summary());
         carry_out(command::Open{scene.preset.string()});
       });

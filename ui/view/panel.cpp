@@ -88,7 +88,7 @@ void ViewPanel::draw(const Context& context)
   held_ = ImGui::IsItemActive();
   if (!held_ || pressed_) on_second_ = seen_second_.size[0] > 0 && mouse()[0] >= seen_second_.corner[0];
   take_line(context, area);
-  const double white = context.preset() ? context.preset()->white : 1;
+  const double white = context.preset() ? context.preset()->white.value_or(1) : 1;
   refresh(first_, shown_, context.view_state.view_settings, white);
   refresh(second_, beside_, context.view_state.view_settings, white, shown_.rgb.empty() ? nullptr : &first_.tone);
   ImDrawList* draw_list = ImGui::GetWindowDrawList();

@@ -4,7 +4,7 @@
 // moves the camera. In the preset's coordinates and in double precision. No Dear ImGui.
 #pragma once
 #include "preset/preset.h"
-#include "run/run.h"
+#include "run/prepare.h"
 #include "scene/scene.h"
 #include "ui/view/placement.h"
 

@@ -143,7 +143,7 @@ std::string pixel_text(const Context& context, const std::array<int, 2>& pixel)
 {
   const auto source = context.comparing.source();
   if (!source || !context.preset()) return {};
-  const double white = context.preset()->white;
+  const double white = context.preset()->white.value_or(1);
   constexpr const char* format = "R {:.4g}   G {:.4g}   B {:.4g}   Y {:.4g} W/m2/sr";
   const auto text_in = [&](const std::optional<Rgb>& value) { return value ? text_of(*value, white, format) : "outside of it"; };
   const HeldPicture held = context.comparing.picture();

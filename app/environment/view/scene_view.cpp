@@ -78,7 +78,7 @@ void SceneView::set_caustics_seconds(double seconds)
 void SceneView::make_renderer(const preset::Preset& preset)
 {
   renderer_.reset(); // its device memory is for the next
-  renderer_.emplace(*task_, preset.white, preset.seed, context_);
+  renderer_.emplace(*task_, preset.white.value(), preset.seed, context_);
   if (caustics_) renderer_->set_caustics(*caustics_);
 }
 
@@ -116,7 +116,7 @@ bool SceneView::go_on_with(const preset::Preset& preset)
     renderer_->turn_environment(preset.scene.environment->rotate_deg);
     begins = true;
   }
-  renderer_->set_white(preset.white);
+  renderer_->set_white(preset.white.value());
   shown_ = preset;
   return begins;
 }

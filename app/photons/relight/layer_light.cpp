@@ -79,7 +79,7 @@ LayerLight layer_light(const preset::Preset& preset)
     light.spectra.push_back(scene::make_light_spectrum(l.spectrum, Place(preset.source) / "scene" / "lights" / i / "spectrum"));
     light.power.push_back(l.type == preset::Light::Type::directional ? l.irradiance_w_m2 : l.power_w);
   }
-  light.white = preset.white;
+  light.white = preset.white.value();
   return light;
 }
 
@@ -189,7 +189,7 @@ RunTables make_run_tables(const preset::Preset& preset, const Settings& settings
   if (!settings.relight) return make_lit_tables(settings, scene, bvh, leave_out);
   leave_out.dark_lights = leave_out.unlit_wavelengths = false;
   RunTables tables = make_lit_tables(settings, with_unit_lights(scene), bvh, leave_out);
-  const LayerLight light = layer_light(scene, preset.white);
+  const LayerLight light = layer_light(scene, preset.white.value());
   tables.emitters = layer_emitters(light, tables, static_cast<unsigned>(settings.photons_per_pass));
   tables.photons_per_batch = count_photons(tables.emitters);
   tables.scene.emitter_count = static_cast<int>(tables.emitters.size());

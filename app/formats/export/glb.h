@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// A binary glTF 2.0 file: JSON, and one chunk of bytes that it points into.
+#pragma once
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nephroid::formats {
+
+/// As glTF and caustics.json have three numbers.
+inline nlohmann::ordered_json three_numbers(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+class Glb {
+public:
+  using Json = nlohmann::ordered_json;
+  Json json;
+
+  /// What they add is named by its index in the file's list. Nothing is empty.
+  std::size_t positions(const std::vector<glm::vec3>& values) { return vectors(values, true); } ///< with the bounds that these need
+  std::size_t normals(const std::vector<glm::vec3>& values) { return vectors(values, false); }
+  std::size_t places(const std::vector<glm::vec2>& values); ///< in a texture
+  std::size_t corners(const std::vector<glm::uvec3>& triangles);
+  std::size_t png(std::string_view bytes); ///< an image
+
+  std::size_t add(const char* list, Json item);
+  void use(const char* extension); ///< each is named once
+
+  /// The file. Throws failed where it would be larger than the format can be: 4 GiB.
+  std::string bytes() const;
+
+private:
+  std::size_t vectors(const std::vector<glm::vec3>& values, bool with_bounds);
+  std::size_t view(const void* bytes, std::size_t count);
+
+  std::string bin_;
+};
+
+} // namespace nephroid::formats

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/import/gltf_file.h"
+
+#include "base/files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace nephroid::formats {
+namespace {
+
+constexpr const char* expected = "a glTF 2.0 file, .gltf or .glb";
+constexpr int max_depth = 64;
+
+/// What changes how the file is read and is understood. All others that the file requires are refused.
+constexpr std::array known_extensions{"KHR_lights_punctual",
+                                      "KHR_materials_ior",
+                                      "KHR_materials_transmission",
+                                      "KHR_materials_volume",
+                                      "KHR_materials_dispersion",
+                                      "KHR_materials_unlit",
+                                      "KHR_materials_specular",
+                                      "KHR_materials_clearcoat",
+                                      "KHR_materials_sheen",
+                                      "KHR_materials_anisotropy",
+                                      "KHR_materials_iridescence",
+                                      "KHR_materials_emissive_strength",
+                                      "KHR_materials_pbrSpecularGlossiness",
+                                      "KHR_texture_transform"};
+
+GltfJson parse(const std::string& text, const std::string& name)
+{
+  try {
+    return GltfJson::parse(text, [&](int depth, GltfJson::parse_event_t, GltfJson&) {
+      if (depth > max_depth) throw bad_input(name, fmt::format("is nested deeper than {} levels", max_depth), expected);
+      return true;
+    });
+  } catch (const GltfJson::parse_error& error) {
+    throw bad_input(name, fmt::format("its JSON is broken at byte {}", error.byte), expected, "check that the file is whole");
+  } catch (const GltfJson::exception& error) {
+    throw bad_input(name, fmt::format("its JSON cannot be read ({})", error.what()), expected);
+  }
+}
+
+std::uint32_t word(const std::string& bytes, std::size_t at)
+{
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + at, sizeof value); // little-endian, as every machine that this runs on
+  return value;
+}
+
+/// Section 4.4 of the specification: a header of 12 bytes, a chunk of JSON, then at most one of binary data.
+void split_glb(const std::string& bytes, const std::string& name, std::string& json, std::string& bin)
+{
+  constexpr std::uint32_t json_chunk = 0x4e4f534a, bin_chunk = 0x004e4942;
+  if (bytes.size() < 20) throw bad_input(name, fmt::format("is cut: it has {} bytes", bytes.size()), expected);
+  if (word(bytes, 4) != 2) throw bad_input(name, fmt::format("is glTF of version {}", word(bytes, 4)), expected);
+  if (word(bytes, 8) > bytes.size())
+    throw bad_input(name, fmt::format("is cut: it has {} of its {} bytes", bytes.size(), word(bytes, 8)), expected, "copy the file again");
+  for (std::size_t at = 12; at + 8 <= bytes.size();) {
+    const std::size_t size = word(bytes, at);
+    if (size > bytes.size() - at - 8) throw bad_input(name, fmt::format("a chunk of {} bytes does not fit into it", size), expected);
+    const std::uint32_t kind = word(bytes, at + 4);
+    if (kind == json_chunk && json.empty()) json = bytes.substr(at + 8, size);
+    if (kind == bin_chunk && bin.empty()) bin = bytes.substr(at + 8, size);
+    at += 8 + size;
+  }
+  if (json.empty()) throw bad_input(name, "has no chunk of JSON", expected);
+}
+
+const GltfJson empty_object = GltfJson::object();
+
+[[noreturn]] void refuse(const Place& where, const char* wanted)
+{
+  throw bad_input(where, "is of a wrong kind", std::string("expected ") + wanted);
+}
+
+} // namespace
+
+GltfFile read_gltf(const std::filesystem::path& file)
+{
+  const std::string name = file.string();
+  std::string text = read_file(file);
+  if (text.empty()) throw bad_input(name, "is empty", expected);
+  GltfFile gltf{file, {}, {}};
+  if (text.starts_with("glTF")) {
+    std::string json;
+    split_glb(text, name, json, gltf.bin);
+    text = std::move(json);
+  }
+  gltf.json = parse(text, name);
+  const GltfValue root(gltf.json, gltf.where());
+  if (!gltf.json.is_object() || !root.has("asset")) throw bad_input(name, "is no glTF: it has no \"asset\"", expected);
+  const std::string version = root.object("asset").text("version");
+  if (!version.starts_with("2.")) throw bad_input(gltf.where() / "asset" / "version", "is \"" + version + "\"", expected);
+  if (!root.has("extensionsRequired")) return gltf;
+  const Place where = gltf.where() / "extensionsRequired";
+  if (!gltf.json["extensionsRequired"].is_array()) throw bad_input(where, "is no list", expected);
+  for (const GltfJson& extension : gltf.json["extensionsRequired"]) {
+    const std::string wanted = extension.is_string() ? extension.get<std::string>() : extension.dump();
+    if (std::find(known_extensions.begin(), known_extensions.end(), wanted) == known_extensions.end())
+      throw bad_input(where, "the file requires " + wanted, "expected none that changes how meshes are stored",
+                      "export it without that extension");
+  }
+  return gltf;
+}
+
+GltfValue GltfValue::object(const char* key) const
+{
+  const Place where = where_ / key;
+  if (!has(key)) return {empty_object, where};
+  const GltfJson& value = (*json_)[key];
+  if (!value.is_object()) refuse(where, "an object");
+  return {value, where};
+}
+
+std::vector<GltfValue> GltfValue::list(const char* key) const
+{
+  std::vector<GltfValue> items;
+  if (!has(key)) return items;
+  const GltfJson& value = (*json_)[key];
+  const Place where = where_ / key;
+  if (!value.is_array()) refuse(where, "a list");
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    if (!value[i].is_object()) refuse(where / i, "an object");
+    items.emplace_back(value[i], where / i);
+  }
+  return items;
+}
+
+GltfValue GltfValue::item(const char* key, std::size_t index) const
+{
+  const Place where = where_ / key;
+  if (!has(key) || !(*json_)[key].is_array() || index >= (*json_)[key].size()) throw bad_input(where, fmt::format("has no item {}", index));
+  const GltfJson& value = (*json_)[key][index];
+  if (!value.is_object()) refuse(where / index, "an object");
+  return {value, where / index};
+}
+
+double GltfValue::number(const char* key, double standard) const
+{
+  if (!has(key)) return standard;
+  const GltfJson& value = (*json_)[key];
+  if (!value.is_number() || !std::isfinite(value.get<double>())) refuse(where_ / key, "a number");
+  return value.get<double>();
+}
+
+std::uint64_t GltfValue::count(const char* key, std::uint64_t standard) const
+{
+  const double value = number(key, static_cast<double>(standard));
+  if (value < 0 || value >= 4294967296.0 || value != std::floor(value)) refuse(where_ / key, "a whole number from 0 to 2^32");
+  return static_cast<std::uint64_t>(value);
+}
+
+std::string GltfValue::text(const char* key) const
+{
+  if (!has(key)) return {};
+  const GltfJson& value = (*json_)[key];
+  if (!value.is_string()) refuse(where_ / key, "a text");
+  return value.get<std::string>();
+}
+
+bool GltfValue::truth(const char* key, bool standard) const
+{
+  if (!has(key)) return standard;
+  if (!(*json_)[key].is_boolean()) refuse(where_ / key, "true or false");
+  return (*json_)[key].get<bool>();
+}
+
+std::size_t GltfValue::checked_index(const GltfJson& json, const Place& where, std::size_t size, const char* of) const
+{
+  if (!json.is_number_integer() || json.get<double>() < 0) refuse(where, "an index");
+  if (json.get<double>() >= static_cast<double>(size))
+    throw bad_input(where, fmt::format("is {}, and there are {} {}", json.dump(), size, of));
+  return json.get<std::size_t>();
+}
+
+std::size_t GltfValue::index(const char* key, std::size_t size, const char* of) const
+{
+  if (!has(key)) throw bad_input(where_, fmt::format("has no \"{}\"", key));
+  return checked_index((*json_)[key], where_ / key, size, of);
+}
+
+std::vector<std::size_t> GltfValue::indices(const char* key, std::size_t size, const char* of) const
+{
+  std::vector<std::size_t> all;
+  if (!has(key)) return all;
+  const GltfJson& value = (*json_)[key];
+  if (!value.is_array()) refuse(where_ / key, "a list of indices");
+  for (std::size_t i = 0; i < value.size(); ++i) all.push_back(checked_index(value[i], where_ / key / i, size, of));
+  return all;
+}
+
+void GltfValue::read_numbers(const char* key, double* values, std::size_t count) const
+{
+  if (!has(key)) return;
+  const GltfJson& value = (*json_)[key];
+  if (!value.is_array() || value.size() != count) refuse(where_ / key, fmt::format("{} numbers", count).c_str());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!value[i].is_number() || !std::isfinite(value[i].get<double>())) refuse(where_ / key / i, "a number");
+    values[i] = value[i].get<double>();
+  }
+}
+
+} // namespace nephroid::formats

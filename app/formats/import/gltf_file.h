@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// A glTF 2.0 file as JSON with its binary chunk, and reading that JSON strictly: every wrong type and every index out of range is an error
+// at its place. Of buffers only sizes are looked at: the mesh reader, a program of its own, reads them.
+#pragma once
+#include "base/place.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace nephroid::formats {
+
+using GltfJson = nlohmann::json;
+
+struct GltfFile {
+  std::filesystem::path file;
+  GltfJson json;   ///< an object
+  std::string bin; ///< the binary chunk of a .glb
+  Place where() const { return {file.string(), std::string()}; }
+};
+
+/// Throws bad_input where it is no glTF 2.0, is cut, or requires an extension that is not read.
+GltfFile read_gltf(const std::filesystem::path& file);
+
+/// A value of the file, with its place.
+class GltfValue {
+public:
+  GltfValue(const GltfJson& json, Place where) : json_(&json), where_(std::move(where)) {}
+
+  const GltfJson& json() const { return *json_; }
+  const Place& where() const { return where_; }
+  bool has(const char* key) const { return json_->contains(key); }
+  /// Of an object: a member that is there, an object itself; without it an empty one.
+  GltfValue object(const char* key) const;
+  /// "extensions" / name, an empty object without it.
+  GltfValue extension(const char* name) const { return object("extensions").object(name); }
+  /// A list of objects; empty without it.
+  std::vector<GltfValue> list(const char* key) const;
+  /// Of a list of objects: an item. Throws where there is none of this index.
+  GltfValue item(const char* key, std::size_t index) const;
+
+  double number(const char* key, double standard) const;
+  /// Whole and not negative, below 2^32.
+  std::uint64_t count(const char* key, std::uint64_t standard) const;
+  std::string text(const char* key) const; ///< empty without it
+  bool truth(const char* key, bool standard) const;
+  /// A list of indices into a list of `size` items, called `of`.
+  std::vector<std::size_t> indices(const char* key, std::size_t size, const char* of) const;
+  std::size_t index(const char* key, std::size_t size, const char* of) const;
+  template <std::size_t N>
+  std::array<double, N> numbers(const char* key, const std::array<double, N>& standard) const
+  {
+    std::array<double, N> values = standard;
+    read_numbers(key, values.data(), N);
+    return values;
+  }
+
+private:
+  void read_numbers(const char* key, double* values, std::size_t count) const;
+  std::size_t checked_index(const GltfJson& json, const Place& where, std::size_t size, const char* of) const;
+
+  const GltfJson* json_;
+  Place where_;
+};
+
+} // namespace nephroid::formats

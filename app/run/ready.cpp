@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/ready.h"
+
+#include "engine/engine.h"
+#include "job/distributed_job.h"
+#include "run/checkpoint.h"
+#include "run/content.h"
+#include "run/exposure.h"
+#include "run/memory.h"
+#include "run/reference.h"
+#include "run/write_run.h"
+
+namespace nephroid::run {
+namespace {
+
+/// The job of the run before, where it can be the next one's; else it is gone, with its memory.
+std::unique_ptr<job::Job> taken_over(ReadyRun& run, const Prepared& next)
+{
+  std::unique_ptr<job::Job> job = std::move(run.job);
+  if (!job || next.preset.reference) return nullptr; // a reference is of one preset
+  if (!changed_input(run.prepared->plan->inputs, next.plan->inputs).empty()) return nullptr;
+  preset::Preset before = run.prepared->preset, now = next.preset;
+  before.name = now.name = run.name_in_job; // names change nothing
+  if (!engine::adoptable(before, now) || !job->adopt(now)) return nullptr;
+  const job::Progress progress = job->progress();
+  if (progress.step != 0 || progress.work != 0 || progress.work_seconds != 0) return nullptr;
+  return job;
+}
+
+std::shared_ptr<const measure::Reference> reference_of(const Prepared& prepared, const compute::Context& context,
+                                                       const ReadyOptions& options)
+{
+  if (options.reference) return options.reference(prepared, context);
+  if (auto reference = find_reference(prepared, context); reference || !prepared.preset.reference) return reference;
+  options.watch.begin("rendering the reference");
+  return make_reference(prepared, context, options.watch.stop, [](double, double) {});
+}
+
+void stop_if_asked(const ReadyOptions& options)
+{
+  if (options.watch.stop.stop_requested())
+    throw Error(ErrorKind::interrupted, options.folder.string(), "interrupted before rendering began");
+}
+
+/// False where there is no checkpoint to go on from.
+bool load(ReadyRun& run, const compute::Context& context, const ReadyOptions& options)
+{
+  try {
+    return options.resume && load_checkpoint(options.folder, *run.prepared, context, *run.job);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_input || !options.bad_checkpoint) throw;
+    options.bad_checkpoint(error);
+    return false;
+  }
+}
+
+void begin_or_resume(ReadyRun& run, const compute::Context& context, const ReadyOptions& options)
+{
+  stop_if_asked(options);
+  run.resumed = load(run, context, options);
+  if (!run.resumed) return begin_run(options.folder, *run.prepared);
+  write_settings(options.folder, *run.prepared);
+  remove_pictures_after(options.folder, run.job->progress().work_seconds);
+}
+
+} // namespace
+
+void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& options)
+{
+  run.claimed.reset();
+  run.ranks = options.ranks;
+  if (!preset.white && options.resume) preset.white = white_of_run(options.folder);
+  if (!preset.white) {
+    run.job.reset();
+    preset.white = fitted_white(preset, run.prepared, run.device, options.watch);
+  }
+  Prepared next = prepare(preset, run.prepared ? &*run.prepared : nullptr, options.watch);
+  run.job = taken_over(run, next);
+  run.together.reset();
+  const Prepared& prepared = run.prepared.emplace(std::move(next));
+  if (options.planned) options.planned(prepared);
+  const compute::Context& context = run.device.context(options.watch);
+  if (options.ranks) require_same(*options.ranks, prepared, context);
+  if (!run.job) require_memory(prepared, context, options.ranks);
+  const Communicator communicator(options.ranks);
+  const auto join_ranks = [&] {
+    if (!communicator.is_alone()) run.together = std::make_unique<compute::Together>(context, communicator);
+  };
+  if (!communicator.is_root()) {
+    join_ranks();
+    run.job = make_job(prepared, context);
+    return;
+  }
+  const compute::TellOfCompiling telling(context, [&] { options.watch.begin("compiling kernels"); });
+  if (!options.folder.empty()) run.claimed = std::make_unique<ClaimedFolder>(options.folder);
+  run.reference = reference_of(prepared, context, options);
+  if (!run.job) {
+    options.watch.begin("setting up the run");
+    join_ranks();
+    run.job = make_job(prepared, context);
+    if (!communicator.is_alone()) run.job = job::distributed(std::move(run.job), communicator);
+    run.job = measure::measured(std::move(run.job), preset, run.reference, options.began, options.measure_at);
+    run.name_in_job = preset.name;
+  }
+  if (!options.folder.empty()) begin_or_resume(run, context, options);
+}
+
+void drive(const ReadyRun& run, job::Observer& observer, const std::stop_token& stop)
+{
+  job::Job& job = *run.job;
+  if (const Communicator communicator(run.ranks); !communicator.is_root()) return job::follow_root(job, communicator);
+  observer.begun(job);
+  while (!job.finished() && !stop.stop_requested()) {
+    job.advance();
+    observer.stepped(job);
+  }
+  observer.ended(job);
+}
+
+const Prepared& prepare_next(ReadyRun& run, const preset::Preset& preset, const Watch& watch)
+{
+  return run.prepared.emplace(prepare(preset, run.prepared ? &*run.prepared : nullptr, watch));
+}
+
+void require_memory(const Prepared& prepared, const compute::Context& context, const std::shared_ptr<mpi::Ranks>& ranks)
+{
+  if (!ranks) return require_memory(prepared, context);
+  std::optional<Error> lack;
+  try {
+    require_memory(prepared, context);
+  } catch (const Error& error) {
+    lack = error;
+  }
+  mpi::require_all(*ranks, lack);
+}
+
+void require_same(mpi::Ranks& ranks, const Prepared& prepared, const compute::Context& context)
+{
+  for (const auto& [what, own] : bit_dependencies(prepared, context)) mpi::require_same(ranks, what, own);
+}
+
+} // namespace nephroid::run
