@@ -34,7 +34,7 @@ PixelLists make_pixel_lists(const compute::Context& context, const scene::Scene&
   return lists;
 }
 
-std::vector<int> preview_edges(const RunPlan& plan, const scene::Scene& scene)
+std::vector<int> edges_of_previews(const RunPlan& plan, const scene::Scene& scene)
 {
   if (!plan.has_previews || plan.settings.relight || plan.settings.estimator == Settings::Estimator::sppm) return {};
   return preview_edges(scene.camera.width, scene.camera.height);
@@ -43,7 +43,7 @@ std::vector<int> preview_edges(const RunPlan& plan, const scene::Scene& scene)
 std::optional<BlockSmoothing> make_smoothing(const RunPlan& plan, const scene::Scene& scene, const scene::Bvh& bvh)
 {
   if (!plan.runs(smoothing_part)) return std::nullopt;
-  const std::vector<int> edges = preview_edges(plan, scene);
+  const std::vector<int> edges = edges_of_previews(plan, scene);
   const bool everywhere = plan.settings.smoothing == Settings::Smoothing::on;
   return BlockSmoothing(scene, bvh, everywhere ? Smoothing::Spread::everywhere : Smoothing::Spread::where_it_helps,
                         edges.empty() ? 1 : edges[0]);
@@ -55,7 +55,7 @@ public:
             const compute::Context& context)
       : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white.value(),
                plan.estimates_error ? 2u : 1u},
-        preset_(preset), passes_(plan.tables.batches), preview_(world_, preview_edges(plan, scene)),
+        preset_(preset), passes_(plan.tables.batches), preview_(world_, edges_of_previews(plan, scene)),
         development_(world_, passes_, preview_, make_smoothing(plan, scene, bvh),
                      plan.has_previews && plan.settings.smoothing == Settings::Smoothing::automatic),
         shares_work_(plan.settings.effort == Settings::Effort::automatic && !plan.settings.relight && plan.estimates_error)
