@@ -91,9 +91,11 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
 {
   const scene::Scene& s = *render.scene;
   const std::uint64_t sky = s.environment ? tracing::bytes_of(s.environment->rgb) : 0;
+  std::uint64_t whole = 0;
+  for (const plan::PlannedBuffer& buffer : tracing::planned_buffers(s, *render.bvh, render.tables)) whole += buffer.bytes;
   return {{"caustic spheres", Caustics::bytes(bake.empty_bake())},
-          {"whole scene", tracing::tree_bytes(*render.bvh) + tracing::surface_bytes(s)},
-          {"environment", sky + (render.tables.sky ? tracing::bytes_of(*render.tables.sky) : 0)},
+          {"whole scene", whole},
+          {"environment", sky},
           {"receivers", Renderer::receiver_bytes()},
           {"paths of the view", Renderer::bytes_a_pixel(render) * s.camera.pixels()},
           {"medium", render.has_medium ? Renderer::medium_bytes(bake.empty_bake()) : 0},
@@ -102,15 +104,14 @@ std::vector<plan::PlannedBuffer> view_buffers(const RenderTask& render, const Ba
 
 std::vector<plan::PlannedBuffer> buffers_of(const BakeTask& task, const scene::Scene& scene, bool bakes)
 {
-  const std::uint64_t tree = tracing::tree_bytes(task.bvh), object = tracing::surface_bytes(task.caster.scene),
-                      sums = task.film_bytes() / task.radii.size();
-  std::vector<plan::PlannedBuffer> list{{"scene (host)", tracing::mesh_bytes(scene) + tree + tracing::mesh_bytes(task.caster.scene), true},
+  const std::uint64_t sums = task.film_bytes() / task.radii.size(),
+                      meshes = tracing::mesh_bytes(scene) + tracing::mesh_bytes(task.caster.scene);
+  std::vector<plan::PlannedBuffer> list{{"scene (host)", meshes + tracing::tree_bytes(task.bvh), true},
                                         {"caustic spheres (host)", task.bytes(), true},
                                         {"pictures of spheres (host)", picture_bytes(task), true}};
   if (!bakes) return list;
   list.push_back({"one sphere's sums (host)", sums, true});
-  list.push_back({"tree", tree});
-  list.push_back({"triangles", object});
+  std::ranges::move(tracing::planned_buffers(task.caster.scene, task.bvh, task.tables), std::back_inserter(list));
   list.push_back({"spheres of one direction", task.film_bytes()});
   return list;
 }

@@ -20,24 +20,16 @@
 namespace nephroid::photons {
 namespace {
 
-std::uint64_t bytes_of_sky(const PlanInput& input) { return input.tables.sky ? tracing::bytes_of(*input.tables.sky) : 0; }
-
 /// What every run has.
 PlanPart plan_scene(const PlanInput& input)
 {
-  const tracing::WavelengthTables& w = input.tables.wavelengths;
-  const std::uint64_t tree = tracing::tree_bytes(input.bvh), triangles = tracing::surface_bytes(input.scene),
-                      environment = input.scene.environment ? tracing::bytes_of(input.scene.environment->rgb) : 0;
+  const std::uint64_t environment = input.scene.environment ? tracing::bytes_of(input.scene.environment->rgb) : 0;
   PlanPart part;
-  part.buffers = {{"scene (host)", tree + tracing::mesh_bytes(input.scene) + environment + bytes_of_sky(input), true},
-                  {"tree", tree},
-                  {"triangles", triangles},
-                  {"wavelength tables", tracing::bytes_of(w.index_of_cluster) + tracing::bytes_of(w.index_of_wavelength) +
-                                            tracing::bytes_of(w.wavelength_cdf) + tracing::bytes_of(w.coefficient) +
-                                            tracing::bytes_of(w.reflectance) + tracing::bytes_of(w.light_xyz) +
-                                            tracing::bytes_of(w.reflected_xyz) + tracing::bytes_of(w.reflected_xyz_all) +
-                                            tracing::bytes_of(w.cluster_wavelengths)},
-                  {"pixels", 2 * sizeof(std::uint32_t) * input.pixels()}}; // all, and those of glass
+  part.buffers = tracing::planned_buffers(input.scene, input.bvh, input.tables);
+  part.buffers.push_back(
+      {"scene (host)", tracing::tree_bytes(input.bvh) + tracing::mesh_bytes(input.scene) + environment + tracing::sky_bytes(input.tables),
+       true});
+  part.buffers.push_back({"pixels", 2 * sizeof(std::uint32_t) * input.pixels()}); // all, and those of glass
   part.defines = scene::tree_defines(input.bvh);
   part.defines["NEPHROID_FILM_HALVES"] = std::to_string(input.halves());
   if (const Settings& s = input.settings; s.step_nm > 1 && s.method != Settings::Method::brute_force)
@@ -72,7 +64,6 @@ PlanPart plan_environment_light(const PlanInput& input)
 {
   PlanPart part;
   if (input.scene.environment) part.passes = {environment_light_pass(input)};
-  if (const std::uint64_t sky = bytes_of_sky(input); sky > 0) part.buffers = {{"environment as a light", sky}};
   return part;
 }
 

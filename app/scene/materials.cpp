@@ -125,13 +125,11 @@ Material make_material(const std::string& name, const preset::Material& material
 {
   Material result;
   result.name = name;
-  if (material.type != preset::Material::Type::dielectric) {
-    const bool mirror = material.type == preset::Material::Type::mirror;
-    result.type = mirror ? Material::Type::mirror : Material::Type::diffuse;
+  result.type = material.type;
+  if (material.type != Material::Type::dielectric) {
     result.reflectance = make_reflectance(material.reflectance, where / "reflectance");
     return result;
   }
-  result.type = Material::Type::dielectric;
   const Place field = where / "dispersion";
   const optics::DispersionCurve curve = make_curve(material.dispersion, finder, field);
   const optics::Extrapolation outside = outside_policy(material.dispersion.outside);

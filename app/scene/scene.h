@@ -25,7 +25,7 @@ Bounds enclosing(const Bounds& a, const Bounds& b);
 Bounds bounds_of(const Ellipsoid& ellipsoid);
 
 struct Material {
-  enum class Type { diffuse, dielectric, mirror };
+  using Type = preset::Material::Type;
   std::string name;
   Type type = Type::diffuse;
   optics::Spectrum n{}; ///< dielectric
@@ -61,6 +61,9 @@ struct Light {
 
   bool operator==(const Light&) const = default;
 };
+
+/// W, or of directional light W m^-2: what its type does not have is 0.
+inline double radiometric(const Light& light) { return light.power_w + light.irradiance_w_m2; }
 
 inline bool is_environment(const Light& light) { return !light.primaries.empty(); }
 

@@ -88,14 +88,14 @@ std::string light_types_reason(unsigned bits)
 {
   std::vector<std::string_view> names;
   for (const auto& choice : preset::choices<preset::Light::Type>)
-    if (bits >> device_light_type(choice.value) & 1) names.push_back(choice.name);
+    if (bits >> static_cast<int>(choice.value) & 1) names.push_back(choice.name);
   if (bits >> LIGHT_ENVIRONMENT & 1) names.push_back("environment");
   return names.empty() ? "there is no light" : fmt::format("every light is of type {}", fmt::join(names, " or "));
 }
 
 } // namespace
 
-bool has_power(const scene::Light& light) { return light.power_w + light.irradiance_w_m2 > 0; }
+bool has_power(const scene::Light& light) { return scene::radiometric(light) > 0; }
 
 std::vector<bool> lit_wavelengths(const scene::Scene& scene)
 {

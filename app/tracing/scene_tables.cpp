@@ -19,6 +19,10 @@ namespace {
 
 using std::numbers::pi;
 
+using LightType = preset::Light::Type;
+static_assert(int(LightType::point) == LIGHT_POINT && int(LightType::spot) == LIGHT_SPOT &&
+              int(LightType::directional) == LIGHT_DIRECTIONAL && int(LightType::area) == LIGHT_AREA);
+
 /// where: of the camera or light that the dielectrics enclose. Throws bad_input there for more than a path can carry.
 shared::Media to_media(const std::vector<int>& inside, const Place& where)
 {
@@ -40,11 +44,10 @@ shared::DeviceLight device_light(const scene::Light& light, double power_unit, c
   out.direction = to_float4(light.direction);
   out.edge_u = to_float4(light.edge_u);
   out.edge_v = to_float4(light.edge_v);
-  using Type = preset::Light::Type;
   out.type = device_light_type(light);
   out.one_minus_cos = static_cast<float>(1 - light.cos_half_angle);
   out.solid_angle = static_cast<float>(2 * pi * (1 - light.cos_half_angle));
-  out.radiometric = static_cast<float>((light.type == Type::directional ? light.irradiance_w_m2 : light.power_w) / power_unit);
+  out.radiometric = static_cast<float>(scene::radiometric(light) / power_unit);
   out.inside = to_media(light.inside, where / "position");
   return out;
 }
@@ -91,7 +94,7 @@ void add_light(const scene::Light& light, std::vector<scene::Sphere> targets, co
 double choose_power_unit(const scene::Scene& scene)
 {
   double strongest = 0;
-  for (const scene::Light& light : scene.lights) strongest = std::max({strongest, light.power_w, light.irradiance_w_m2});
+  for (const scene::Light& light : scene.lights) strongest = std::max(strongest, scene::radiometric(light));
   return power_of_two_below(strongest);
 }
 
@@ -174,8 +177,6 @@ std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene
   return primitives;
 }
 
-std::uint64_t surface_bytes(const scene::Scene& scene) { return scene.object_of_primitive.size() * sizeof(shared::DevicePrimitive); }
-
 std::uint64_t mesh_bytes(const scene::Scene& scene)
 {
   const scene::Mesh& mesh = scene.geometry;
@@ -194,20 +195,20 @@ SkyTables make_sky_tables(const scene::Environment& environment)
   const auto width = static_cast<std::size_t>(environment.width);
   SkyTables tables;
   tables.size = picture_size(environment);
-  tables.cdf = exact_cdf(flux.rows);
+  tables.texel_cdf = exact_cdf(flux.rows);
   tables.mean_colour = {static_cast<float>(whole.mean[0]), static_cast<float>(whole.mean[1]), static_cast<float>(whole.mean[2]), 0};
-  tables.colour.reserve(environment.rgb.size());
+  tables.texel_colour.reserve(environment.rgb.size());
   for (std::size_t row = 0; row < flux.rows.size(); ++row) {
-    const double steradians = scene::texel_steradians(environment, static_cast<int>(row)), row_chance = chance(tables.cdf, row);
+    const double steradians = scene::texel_steradians(environment, static_cast<int>(row)), row_chance = chance(tables.texel_cdf, row);
     for (std::size_t column = 0; column < width; ++column) {
       const double drawn = row_chance * chance(flux.texels[row], column);
       for (std::size_t c = 0; c < 3; ++c) {
         const double value = environment.rgb[3 * (row * width + column) + c];
-        tables.colour.push_back(drawn > 0 ? static_cast<float>(value * steradians / (whole.grey * drawn)) : 0.0f);
+        tables.texel_colour.push_back(drawn > 0 ? static_cast<float>(value * steradians / (whole.grey * drawn)) : 0.0f);
       }
     }
   }
-  const auto append = [&](const std::vector<float>& cdf) { tables.cdf.insert(tables.cdf.end(), cdf.begin(), cdf.end()); };
+  const auto append = [&](const std::vector<float>& cdf) { tables.texel_cdf.insert(tables.texel_cdf.end(), cdf.begin(), cdf.end()); };
   std::ranges::for_each(flux.texels, append);
   tables.size.has_peaks = std::accumulate(peaks.rows.begin(), peaks.rows.end(), 0.0) > least_peaks * whole.grey;
   if (!tables.size.has_peaks) return tables;
@@ -215,8 +216,6 @@ SkyTables make_sky_tables(const scene::Environment& environment)
   std::ranges::for_each(peaks.texels, append);
   return tables;
 }
-
-std::uint64_t bytes_of(const SkyTables& tables) { return (tables.cdf.size() + tables.colour.size()) * sizeof(float); }
 
 shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where)
 {
@@ -234,13 +233,7 @@ shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& whe
   return out;
 }
 
-int device_light_type(const scene::Light& light) { return is_environment(light) ? LIGHT_ENVIRONMENT : device_light_type(light.type); }
-
-int device_light_type(preset::Light::Type type)
-{
-  using Type = preset::Light::Type;
-  return type == Type::point ? LIGHT_POINT : type == Type::spot ? LIGHT_SPOT : type == Type::directional ? LIGHT_DIRECTIONAL : LIGHT_AREA;
-}
+int device_light_type(const scene::Light& light) { return is_environment(light) ? LIGHT_ENVIRONMENT : static_cast<int>(light.type); }
 
 SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const LeaveOut& leave_out)
 {
@@ -274,6 +267,8 @@ SceneTables make_scene_tables(const scene::Scene& scene, const std::vector<std::
   // Enough from any place on the disc of any target, also of the one about everything.
   tables.scene.outside_distance = 2.5f * std::max(scene_bounds(scene).radius, leave_out.stray_photons ? 0.0f : everything(scene).radius);
   tables.scene.max_surfaces = 32;
+  tables.scene.reflector_count = tables.wavelengths.reflector_count;
+  if (tables.sky) tables.scene.sky_size = tables.sky->size;
   return tables;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scene as kernels read it (kernels/tracing/world.h): plain tables, still on the host. Made once a job; tested without a device.
 #pragma once
-#include "kernels/tracing/shared_types.h"
 #include "preset/preset.h"
 #include "scene/scene.h"
 #include "tracing/wavelength_tables.h"
@@ -34,20 +33,17 @@ struct LeaveOut {
 /// The environment as a light, as kernels/tracing/sky.h reads it.
 struct SkyTables {
   shared::DeviceBackground size{};
-  std::vector<float> cdf;       ///< exact_cdf of the rows' flux, then of the texels of each row; then of the peaks, if it has any
-  std::vector<float> colour;    ///< [row][column][3]: what a photon of the texel carries of each primary, about rgb over grey
+  SKY_TABLES(TABLE_VECTOR)
   shared::float4 mean_colour{}; ///< of all photons
 };
 
 struct SceneTables {
   shared::DeviceScene scene{}; ///< but for its root, which is the tree's
   shared::DeviceCamera camera{};
-  std::vector<shared::DeviceMaterial> materials;
-  std::vector<shared::DeviceObject> objects;
-  std::vector<shared::DeviceLight> lights;   ///< without those that are left out
-  std::vector<scene::Sphere> spheres;        ///< where photons are sent, by all lights together
-  std::vector<shared::DeviceTarget> targets; ///< lists, see DeviceLight::first_target
-  std::shared_ptr<const SkyTables> sky;      ///< null where the environment is no light; large, so copies share it
+  OBJECT_TABLES(TABLE_VECTOR)
+  TARGET_TABLES(TABLE_VECTOR)
+  std::vector<scene::Sphere> spheres;   ///< where photons are sent, by all lights together
+  std::shared_ptr<const SkyTables> sky; ///< null where the environment is no light; large, so copies share it
   WavelengthTables wavelengths;
   StretchTables stretch;                 ///< for the same clusters
   std::vector<double> towards_targets_w; ///< [light]: power that it sends towards its targets, all wavelengths
@@ -65,7 +61,6 @@ inline shared::float4 to_float4(const glm::dvec3& v, double w = 0)
 shared::DeviceCamera device_camera(const scene::Camera& camera, const Place& where);
 
 /// LIGHT_* of kernels/tracing/shared_types.h.
-int device_light_type(preset::Light::Type type);
 int device_light_type(const scene::Light& light);
 
 /// clusters: of the 401 wavelengths, each in exactly one. Throws bad_input at FILE#/pointer where the camera or a light is inside more than
@@ -78,8 +73,7 @@ std::vector<shared::DevicePrimitive> device_primitives(const scene::Scene& scene
 /// What a table takes in bytes.
 std::uint64_t bytes_of(const auto& items) { return std::uint64_t{items.size()} * sizeof(items[0]); }
 
-/// Bytes of a scene's surfaces on the device, and on the host.
-std::uint64_t surface_bytes(const scene::Scene& scene);
+/// Bytes of a scene's surfaces on the host.
 std::uint64_t mesh_bytes(const scene::Scene& scene);
 
 /// Where texels are looked up: of what is seen, too.
@@ -88,8 +82,5 @@ shared::DeviceBackground picture_size(const scene::Environment& environment);
 /// Of an environment that is not black. A texel of less than 2^-24 of its row is drawn more often than its flux asks for; its photons
 /// carry less then, so that nothing is too bright.
 SkyTables make_sky_tables(const scene::Environment& environment);
-
-/// Bytes on the device.
-std::uint64_t bytes_of(const SkyTables& tables);
 
 } // namespace nephroid::tracing

@@ -14,9 +14,12 @@ namespace {
 
 using optics::Spectrum;
 using optics::wavelength_count;
-using shared::float4;
 
 static_assert(WAVELENGTH_COUNT == wavelength_count, "kernels and host mean the same wavelengths");
+
+using MaterialType = scene::Material::Type;
+static_assert(int(MaterialType::diffuse) == MATERIAL_DIFFUSE && int(MaterialType::dielectric) == MATERIAL_DIELECTRIC &&
+              int(MaterialType::mirror) == MATERIAL_MIRROR);
 
 float4 to_float4(const glm::dvec4& v) { return tracing::to_float4(glm::dvec3(v), v.w); }
 
@@ -38,11 +41,9 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std:
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const scene::Material& material = scene.materials[i];
     shared::DeviceMaterial& row = materials[i];
-    row.type = material.type == scene::Material::Type::diffuse      ? MATERIAL_DIFFUSE
-               : material.type == scene::Material::Type::dielectric ? MATERIAL_DIELECTRIC
-                                                                    : MATERIAL_MIRROR;
+    row.type = static_cast<int>(material.type);
     if (!used[i]) continue;
-    if (material.type == scene::Material::Type::diffuse) {
+    if (material.type == MaterialType::diffuse) {
       row.reflector = tables.reflector_count++;
       tables.reflectance.insert(tables.reflectance.end(), material.reflectance.begin(), material.reflectance.end());
     } else if (const std::vector<double> coefficients = loss_coefficients(material); !coefficients.empty()) {
@@ -52,7 +53,7 @@ void add_material_rows(const scene::Scene& scene, WavelengthTables& tables, std:
   }
 }
 
-bool bends(const scene::Material& material) { return material.type == scene::Material::Type::dielectric; }
+bool bends(const scene::Material& material) { return material.type == MaterialType::dielectric; }
 
 /// The clusters with the wavelengths that are lit, and their indices of refraction.
 void add_cluster_rows(const scene::Scene& scene, const std::vector<std::vector<int>>& clusters, const std::vector<bool>& lit,
@@ -139,8 +140,6 @@ void add_light_rows(const std::vector<const scene::Light*>& lights, WavelengthTa
   }
 }
 
-double radiometric(const scene::Light& light) { return light.power_w + light.irradiance_w_m2; }
-
 void add_cluster_cdf(const std::vector<const scene::Light*>& lights, WavelengthTables& tables)
 {
   std::vector<double> weights(tables.clusters.size(), 0);
@@ -177,7 +176,7 @@ std::vector<const Spectrum*> dispersive_curves(const scene::Scene& scene)
   for (const scene::Object& object : scene.objects) {
     const scene::Material& material = material_of(scene, object);
     const Spectrum& n = material.n;
-    if (material.type != scene::Material::Type::dielectric || std::ranges::all_of(n, [&](double v) { return v == n[0]; })) continue;
+    if (material.type != MaterialType::dielectric || std::ranges::all_of(n, [&](double v) { return v == n[0]; })) continue;
     if (std::ranges::none_of(curves, [&](const Spectrum* other) { return *other == n; })) curves.push_back(&n);
   }
   return curves;
@@ -230,10 +229,10 @@ double slope(const Spectrum& n, const Spectrum& s, const std::vector<int>& clust
 std::vector<double> loss_coefficients(const scene::Material& material)
 {
   std::vector<double> a;
-  if (material.type == scene::Material::Type::dielectric && material.absorbs)
+  if (material.type == MaterialType::dielectric && material.absorbs)
     for (int w = 0; w < optics::wavelength_count; ++w)
       a.push_back(4 * std::numbers::pi * material.k[static_cast<std::size_t>(w)] / (optics::wavelength_nm(w) * 1e-9));
-  if (material.type == scene::Material::Type::mirror && std::ranges::any_of(material.reflectance, [](double r) { return r != 1; }))
+  if (material.type == MaterialType::mirror && std::ranges::any_of(material.reflectance, [](double r) { return r != 1; }))
     for (const double r : material.reflectance) a.push_back(r > 0 ? std::min(-std::log(r), blackest) : blackest);
   return a;
 }
@@ -280,7 +279,7 @@ StretchTables make_stretch_tables(const scene::Scene& scene, const std::vector<s
   const std::vector<const Spectrum*> curves = dispersive_curves(scene);
   for (int w = 0; w < wavelength_count; ++w) {
     const double here = s[static_cast<std::size_t>(w)];
-    tables.place.push_back(to_float4(glm::dvec3(here, here + arm(s, w, w - 1), here + arm(s, w, w + 1))));
+    tables.stretch_place.push_back(to_float4(glm::dvec3(here, here + arm(s, w, w - 1), here + arm(s, w, w + 1))));
   }
   for (const std::vector<int>& cluster : clusters) {
     double mean = 0;
@@ -288,12 +287,12 @@ StretchTables make_stretch_tables(const scene::Scene& scene, const std::vector<s
     for (const int w : cluster) {
       mean += s[static_cast<std::size_t>(w)] / static_cast<double>(cluster.size());
       if (!lit[static_cast<std::size_t>(w)]) continue;
-      const shared::float4& place = tables.place[static_cast<std::size_t>(w)];
+      const shared::float4& place = tables.stretch_place[static_cast<std::size_t>(w)];
       ends.insert(ends.end(), {place.x, place.y, place.z});
     }
     if (ends.empty()) continue;
     const auto [low, high] = std::ranges::minmax_element(ends);
-    tables.span.push_back(to_float4(glm::dvec3(mean, *low, *high)));
+    tables.stretch_span.push_back(to_float4(glm::dvec3(mean, *low, *high)));
     for (const scene::Material& material : scene.materials) {
       const bool disperses = std::ranges::any_of(curves, [&](const Spectrum* n) { return *n == material.n; });
       tables.index_slope.push_back(!disperses ? 0.0f : curves.size() == 1 ? 1.0f : static_cast<float>(slope(material.n, s, cluster)));

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // What kernels know of wavelengths: indices of refraction, losses, and the light of clusters of wavelengths.
 #pragma once
-#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/scene_table_types.h"
 #include "scene/scene.h"
 
 #include <vector>
 
 namespace nephroid::tracing {
 
+// Items of the tables of kernels/tracing/scene_table_types.h.
+using shared::DeviceLight, shared::DeviceMaterial, shared::DeviceObject, shared::DevicePrimitive, shared::DeviceTarget, shared::float4;
+
 /// Everything that depends on wavelength, for `clusters` of the 401 wavelengths.
 struct WavelengthTables {
-  std::vector<std::vector<int>> clusters;        ///< wavelength indices of each, without those that are left out
-  std::vector<int> cluster_first;                ///< cluster_count + 1
-  std::vector<int> cluster_wavelengths;          ///< cluster after cluster
-  std::vector<float> index_of_cluster;           ///< [cluster][material]: of refraction, mean over the cluster; 1 for what is no dielectric
-  std::vector<float> index_of_wavelength;        ///< [401][material]
-  std::vector<float> wavelength_cdf;             ///< [light, then all together][member of cluster_wavelengths]: see kernels/tracing/band.h
-  bool clusters_spread = false;                  ///< whether n differs inside any cluster
-  std::vector<float> coefficient;                ///< [attenuator][401]: 1/m, or -ln(reflectance) of a mirror
-  std::vector<float> reflectance;                ///< [reflector][401]
-  std::vector<shared::float4> light_xyz;         ///< [light][401]: share times (xbar, ybar, zbar), share; three rows of the environment
-  std::vector<shared::float4> reflected_xyz;     ///< [row of light_xyz][cluster][reflector]; w: the share, as of a white one
-  std::vector<shared::float4> reflected_xyz_all; ///< [row of light_xyz][reflector]
-  std::vector<float> cluster_cdf;                ///< exact_cdf_from_zero: what paths through glass are worth in each cluster
-  std::vector<std::vector<double>> share;        ///< [light][cluster]: of the light's power
-  std::vector<std::vector<double>> seen; ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3: see worth() in scales.h
+  std::vector<std::vector<int>> clusters; ///< wavelength indices of each, without those that are left out
+  WAVELENGTH_TABLES(TABLE_VECTOR)
+  COLOUR_TABLES(TABLE_VECTOR)
+  bool clusters_spread = false;           ///< whether n differs inside any cluster
+  std::vector<std::vector<double>> share; ///< [light][cluster]: of the light's power
+  std::vector<std::vector<double>> seen;  ///< [light][cluster]: what the eye makes of that share, (X + Y + Z) / 3: see worth() in scales.h
   int attenuator_count = 0, reflector_count = 0;
 };
 
@@ -53,11 +47,9 @@ StretchParameter stretch_parameter(const scene::Scene& scene);
 /// The clusters, cut into runs of neighbouring wavelengths where they are none; ordered by their smallest wavelength.
 std::vector<std::vector<int>> split_into_runs(const std::vector<std::vector<int>>& clusters);
 
-/// All in float4 for the device, w unused. s is counted from 580 nm, so that differences are exact in single precision.
+/// s is counted from 580 nm, so that differences are exact in single precision.
 struct StretchTables {
-  std::vector<shared::float4> place; ///< [401]: s; s of the wavelength 1 nm below; 1 nm above
-  std::vector<shared::float4> span;  ///< [cluster]: s of a path at the cluster's mean index; lowest and highest s of its wavelengths' light
-  std::vector<float> index_slope;    ///< [cluster][material]: dn/ds
+  STRETCH_TABLES(TABLE_VECTOR)
 };
 
 /// For clusters of WavelengthTables: lit says which wavelengths stay in them. Light between two wavelengths is interpolated linearly: each

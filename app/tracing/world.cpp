@@ -2,55 +2,79 @@
 #include "tracing/world.h"
 
 namespace nephroid::tracing {
+namespace {
+
+#define PLUS_BYTES(type, name, words) +bytes_of(from.name)
+#define UPLOAD(type, name, words) buffers.name = compute::Buffer(context, words, from.name);
+
+std::uint64_t wavelength_bytes(const WavelengthTables& from) { return 0 WAVELENGTH_TABLES(PLUS_BYTES) COLOUR_TABLES(PLUS_BYTES); }
+
+std::uint64_t stretch_bytes(const StretchTables& from) { return 0 STRETCH_TABLES(PLUS_BYTES); }
+
+std::uint64_t object_bytes(const SceneTables& from) { return 0 OBJECT_TABLES(PLUS_BYTES) TARGET_TABLES(PLUS_BYTES); }
+
+void upload_objects(const compute::Context& context, const SceneTables& from, SceneBuffers& buffers)
+{
+  OBJECT_TABLES(UPLOAD)
+  TARGET_TABLES(UPLOAD)
+}
+
+void upload_wavelengths(const compute::Context& context, const WavelengthTables& from, SceneBuffers& buffers)
+{
+  WAVELENGTH_TABLES(UPLOAD)
+  COLOUR_TABLES(UPLOAD)
+}
+
+void upload_stretch(const compute::Context& context, const StretchTables& from, SceneBuffers& buffers) { STRETCH_TABLES(UPLOAD) }
+
+void upload_sky(const compute::Context& context, const SkyTables& from, SceneBuffers& buffers) { SKY_TABLES(UPLOAD) }
+
+} // namespace
+
+std::uint64_t sky_bytes(const SceneTables& tables)
+{
+  if (!tables.sky) return 0;
+  const SkyTables& from = *tables.sky;
+  return 0 SKY_TABLES(PLUS_BYTES);
+}
 
 std::uint64_t tree_bytes(const scene::Bvh& bvh) { return bytes_of(bvh.nodes) + bytes_of(bvh.blocks); }
 
-void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& b)
+std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables)
 {
-  b.nodes = compute::Buffer(context, "tree nodes", bvh.nodes);
-  b.blocks = compute::Buffer(context, "tree triangles", bvh.blocks);
-  b.primitives = compute::Buffer(context, "triangles", device_primitives(scene));
+  std::vector<plan::PlannedBuffer> rows{{"tree", tree_bytes(bvh)},
+                                        {"triangles", scene.object_of_primitive.size() * sizeof(DevicePrimitive)},
+                                        {"objects and lights", object_bytes(tables)},
+                                        {"wavelength tables", wavelength_bytes(tables.wavelengths) + stretch_bytes(tables.stretch)}};
+  if (tables.sky) rows.push_back({"environment as a light", sky_bytes(tables)});
+  return rows;
+}
+
+void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& buffers)
+{
+  const struct {
+    const std::vector<float>&nodes, &blocks;
+    std::vector<DevicePrimitive> primitives;
+  } from{bvh.nodes, bvh.blocks, device_primitives(scene)};
+  GEOMETRY_TABLES(UPLOAD)
 }
 
 SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables)
 {
-  const WavelengthTables& w = tables.wavelengths;
-  SceneBuffers b;
-  upload_surfaces(context, scene, bvh, b);
-  b.objects = compute::Buffer(context, "objects", tables.objects);
-  b.materials = compute::Buffer(context, "materials", tables.materials);
-  b.lights = compute::Buffer(context, "lights", tables.lights);
-  b.targets = compute::Buffer(context, "targets", tables.targets);
-  b.index_of_cluster = compute::Buffer(context, "index of refraction of each cluster", w.index_of_cluster);
-  b.index_of_wavelength = compute::Buffer(context, "index of refraction of each wavelength", w.index_of_wavelength);
-  b.wavelength_cdf = compute::Buffer(context, "choice of a wavelength", w.wavelength_cdf);
-  b.index_slope = compute::Buffer(context, "slope of the index of refraction", tables.stretch.index_slope);
-  b.stretch_place = compute::Buffer(context, "stretch of each wavelength", tables.stretch.place);
-  b.stretch_span = compute::Buffer(context, "stretch of each cluster", tables.stretch.span);
-  b.coefficient = compute::Buffer(context, "attenuation", w.coefficient);
-  b.reflectance = compute::Buffer(context, "reflectance", w.reflectance);
-  b.cluster_cdf = compute::Buffer(context, "cluster choice", w.cluster_cdf);
-  b.cluster_first = compute::Buffer(context, "cluster starts", w.cluster_first);
-  b.cluster_wavelengths = compute::Buffer(context, "cluster wavelengths", w.cluster_wavelengths);
-  b.light_xyz = compute::Buffer(context, "light spectra", w.light_xyz);
-  b.reflected_xyz = compute::Buffer(context, "reflected colours by cluster", w.reflected_xyz);
-  const SkyTables none, &sky = tables.sky ? *tables.sky : none;
-  b.sky_cdf = compute::Buffer(context, "environment as a light, choice of a texel", sky.cdf);
-  b.sky_colour = compute::Buffer(context, "environment as a light", sky.colour);
-  b.reflected_xyz_all = compute::Buffer(context, "reflected colours", w.reflected_xyz_all);
-  return b;
+  SceneBuffers buffers;
+  upload_surfaces(context, scene, bvh, buffers);
+  upload_objects(context, tables, buffers);
+  upload_wavelengths(context, tables.wavelengths, buffers);
+  upload_stretch(context, tables.stretch, buffers);
+  static const SkyTables no_sky;
+  upload_sky(context, tables.sky ? *tables.sky : no_sky, buffers);
+  return buffers;
 }
 
 World make_world(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
                  const compute::Defines& defines, std::uint64_t seed)
 {
-  World world{context,
-              upload(context, scene, bvh, tables),
-              tables.scene,
-              tables.sky ? tables.sky->size : shared::DeviceBackground{},
-              tables.wavelengths.reflector_count,
-              defines,
-              {}};
+  World world{context, upload(context, scene, bvh, tables), tables.scene, defines, {}};
   world.scene.root = bvh.root;
   world.seed = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
   return world;

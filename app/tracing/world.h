@@ -2,6 +2,7 @@
 // A scene on a device: the tables of scene_tables.h there, and how kernels are run in it.
 #pragma once
 #include "compute/compute.h"
+#include "plan/plan.h"
 #include "scene/bvh.h"
 #include "tracing/scene_tables.h"
 
@@ -14,21 +15,19 @@
 
 namespace nephroid::tracing {
 
+/// The tables of kernels/tracing/scene_table_types.h.
 struct SceneBuffers {
-  compute::Buffer<float> nodes, blocks;
-  compute::Buffer<shared::DevicePrimitive> primitives;
-  compute::Buffer<shared::DeviceObject> objects;
-  compute::Buffer<shared::DeviceMaterial> materials;
-  compute::Buffer<shared::DeviceLight> lights;
-  compute::Buffer<shared::DeviceTarget> targets;
-  compute::Buffer<float> index_of_cluster, index_of_wavelength, wavelength_cdf, index_slope, coefficient, reflectance, cluster_cdf, sky_cdf,
-      sky_colour;
-  compute::Buffer<int> cluster_first, cluster_wavelengths;
-  compute::Buffer<shared::float4> light_xyz, reflected_xyz, reflected_xyz_all, stretch_place, stretch_span;
+#define TABLE_BUFFER(type, name, words) compute::Buffer<type> name;
+  SCENE_TABLES(TABLE_BUFFER)
+#undef TABLE_BUFFER
 };
 
-/// What a scene's tree takes in bytes.
+/// Bytes of a scene's tree, and of its environment as a light.
 std::uint64_t tree_bytes(const scene::Bvh& bvh);
+std::uint64_t sky_bytes(const SceneTables& tables);
+
+/// The plan's rows of what `upload` allocates.
+std::vector<plan::PlannedBuffer> planned_buffers(const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables);
 
 /// Of the tables those that say where surfaces are; the others stay. Throws failed where the device has not enough memory.
 void upload_surfaces(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, SceneBuffers& buffers);
@@ -40,8 +39,6 @@ struct World {
   compute::Context context;
   SceneBuffers buffers;
   shared::DeviceScene scene{};
-  shared::DeviceBackground sky_size{};
-  int reflector_count = 0;
   compute::Defines defines; ///< for every kernel
   shared::uint2 seed{};
 
@@ -54,30 +51,9 @@ struct World {
   void queue(compute::Kernel& kernel, std::size_t global, std::size_t local, std::initializer_list<compute::Argument> own,
              std::initializer_list<compute::Argument> more = {})
   {
-    const SceneBuffers& b = buffers;
-    std::vector<compute::Argument> arguments{{"nodes", b.nodes},
-                                             {"blocks", b.blocks},
-                                             {"primitives", b.primitives},
-                                             {"objects", b.objects},
-                                             {"materials", b.materials},
-                                             {"lights", b.lights},
-                                             {"index_of_cluster", b.index_of_cluster},
-                                             {"index_of_wavelength", b.index_of_wavelength},
-                                             {"wavelength_cdf", b.wavelength_cdf},
-                                             {"index_slope", b.index_slope},
-                                             {"stretch_place", b.stretch_place},
-                                             {"stretch_span", b.stretch_span},
-                                             {"reflected_xyz", b.reflected_xyz},
-                                             {"cluster_first", b.cluster_first},
-                                             {"cluster_wavelengths", b.cluster_wavelengths},
-                                             {"coefficient", b.coefficient},
-                                             {"light_xyz", b.light_xyz},
-                                             {"reflectance", b.reflectance},
-                                             {"sky_cdf", b.sky_cdf},
-                                             {"sky_colour", b.sky_colour},
-                                             {"sky_size", sky_size},
-                                             {"reflector_count", reflector_count},
-                                             {"scene", scene}};
+#define TABLE_ARGUMENT(type, name, words) {#name, buffers.name},
+    std::vector<compute::Argument> arguments{WORLD_TABLES(TABLE_ARGUMENT){"scene", scene}};
+#undef TABLE_ARGUMENT
     arguments.insert(arguments.end(), more);
     kernel.run(global, local, arguments, own);
   }

@@ -110,7 +110,11 @@ kernel void attenuated(global const int* first, global const int* wavelengths, g
 {
   const uint i = get_global_id(0);
   if (i >= count) return;
-  const SpectralTables tables = {first, wavelengths, coefficient, light_xyz, reflectance};
+  const SpectralTables tables = {.cluster_first = first,
+                                 .cluster_wavelengths = wavelengths,
+                                 .coefficient = coefficient,
+                                 .light_xyz = light_xyz,
+                                 .reflectance = reflectance};
   Losses losses = no_losses();
   lose(&losses, in[i].w, lengths[i]);
   out[i] = attenuated_sum(&tables, &losses, in[i].x, in[i].y, in[i].z);

@@ -93,13 +93,12 @@ static inline float3 direct_radiance(const World* world, const DeviceEnd* end, _
   path.direction = -surface.geometric; // all that is asked of the path is on which side it arrives
   float3 sampled = (float3)(0.0f), sum = (float3)(0.0f);
   for (int l = 0; l < world->scene.light_count; ++l) {
-    __global const float4* row = lit_rgb + l * world->reflector_count + reflector;
+    __global const float4* row = lit_rgb + l * world->scene.reflector_count + reflector;
     if (is_of_environment(world, l)) {
       sum += reflected_colour(reflected_rgb, reflector, seen * smooth_irradiance(irradiance, surface.shading));
 #if !NEPHROID_COARSE
       const float3 rgb = power_unit * sky_irradiance(world, l, &path, &surface, primitive, seed, pass, 1u, sequence);
-      sampled +=
-          rgb.x * row[0].xyz + rgb.y * row[world->reflector_count].xyz + rgb.z * row[2 * world->reflector_count].xyz;
+      sampled += rgb.x * row[0].xyz + rgb.y * row[world->scene.reflector_count].xyz + rgb.z * row[2 * world->scene.reflector_count].xyz;
 #endif
     } else {
       const float3 lamp =

@@ -14,16 +14,16 @@ IN_PLACE float3 shade(const World* world, const Path* path, const Surface* surfa
     if (is_of_environment(world, l)) {
       const float3 rgb = sky_irradiance(world, l, path, surface, triangle, seed, sample, paths, pixel);
       const Source sky = {l, rgb / PI_F};
-      __global const float4* all = reflected_xyz_all + l * world->reflector_count + reflector;
-      xyz += band->cluster < 0 ? sky.rgb.x * all[0].xyz + sky.rgb.y * all[world->reflector_count].xyz +
-                                     sky.rgb.z * all[2 * world->reflector_count].xyz
+      __global const float4* all = reflected_xyz_all + l * world->scene.reflector_count + reflector;
+      xyz += band->cluster < 0 ? sky.rgb.x * all[0].xyz + sky.rgb.y * all[world->scene.reflector_count].xyz +
+                                     sky.rgb.z * all[2 * world->scene.reflector_count].xyz
                                : carried_light(world, &path->losses, sky, band, reflector).xyz;
       continue;
     }
     const float irradiance = irradiance_of(world, l, path, surface, triangle, seed, sample, paths, pixel);
     if (irradiance == 0.0f) continue;
     const Source lamp = {l, (float3)(1.0f)};
-    const float3 reflected = band->cluster < 0 ? reflected_xyz_all[l * world->reflector_count + reflector].xyz
+    const float3 reflected = band->cluster < 0 ? reflected_xyz_all[l * world->scene.reflector_count + reflector].xyz
                                                : carried_light(world, &path->losses, lamp, band, reflector).xyz;
     xyz += reflected * (irradiance / PI_F);
   }

@@ -57,9 +57,9 @@ static inline bool layer_add(const LayerFilm* film, int pixel, int reflector, in
 static inline float cluster_left(const SpectralTables* tables, const Losses* losses, int cluster)
 {
   if (!losses->any) return 1.0f;
-  const int first = tables->first[cluster], end = tables->first[cluster + 1];
+  const int first = tables->cluster_first[cluster], end = tables->cluster_first[cluster + 1];
   float sum = 0.0f;
-  for (int i = first; i < end; ++i) sum += wavelength_left(tables, losses, tables->wavelengths[i]);
+  for (int i = first; i < end; ++i) sum += wavelength_left(tables, losses, tables->cluster_wavelengths[i]);
   return sum / (float)(end - first);
 }
 

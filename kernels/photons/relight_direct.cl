@@ -84,14 +84,13 @@ __kernel void direct(WORLD_ARGUMENTS, __global const float* cluster_cdf, __globa
       if (radiance == 0.0f) continue;
       bool taken;
       if (straight)
-        taken = layer_add(&unbent, pixel, reflector, l, radiance, film_scale, film_limit,
-                          mean_reflectance + all * reflector_count, jitter.z);
+        taken = layer_add(&unbent, pixel, reflector, l, radiance, film_scale, film_limit, mean_reflectance + all * scene.reflector_count, jitter.z);
       else if (has_cells(&bent, pixel))
         taken = layer_add(&bent, pixel, reflector, l * all + band.cluster, radiance, film_scale, film_limit,
-                          mean_reflectance + band.cluster * reflector_count, jitter.z);
+                          mean_reflectance + band.cluster * scene.reflector_count, jitter.z);
       else // the survey saw no glass here: a sliver of it, whose light is taken for unbent
-        taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], film_scale,
-                          film_limit, mean_reflectance + all * reflector_count, jitter.z);
+        taken = layer_add(&unbent, pixel, reflector, l, radiance * luminance_share[band.cluster], film_scale, film_limit,
+                          mean_reflectance + all * scene.reflector_count, jitter.z);
       if (!taken) ++refused;
     }
   }

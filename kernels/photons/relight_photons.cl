@@ -33,11 +33,9 @@ __kernel void photons(WORLD_ARGUMENTS, __global const DeviceTarget* targets, __g
     const float left = cluster_left(&world.tables, &path.losses, emitter.cluster);
     if (end.outcome == OUTCOME_DEPOSITED) {
       const Splat splat = splat_at(&world, &camera, &end.surface, end.triangle, path.direction);
-      const int reflector = material_of(&world, end.surface.object).reflector,
-                layer = emitter.light * scene.cluster_count + emitter.cluster;
-      if (splat.pixel >= 0 &&
-          !layer_add(&film, splat.pixel, reflector, layer, emission.watts * left * splat.weight / PI_F, film_scale,
-                     FILM_LIMIT, mean_reflectance + emitter.cluster * reflector_count, start.emission.w))
+      const int reflector = material_of(&world, end.surface.object).reflector, layer = emitter.light * scene.cluster_count + emitter.cluster;
+      if (splat.pixel >= 0 && !layer_add(&film, splat.pixel, reflector, layer, emission.watts * left * splat.weight / PI_F, film_scale,
+                                         FILM_LIMIT, mean_reflectance + emitter.cluster * scene.reflector_count, start.emission.w))
         add_outcome(outcomes, OUTCOME_REFUSED, 1);
     }
     count_photon(outcomes, end.outcome, emission.watts / (float)emitter.photon_count * emitter.share * energy_scale,

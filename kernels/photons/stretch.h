@@ -140,15 +140,13 @@ static inline float place_in_tent(const World* world, int wavelength, float u, f
 // s less the photon's.
 static inline Band stretched_band(const World* world, int light, const Band* photon, float u, float* x)
 {
-  const int cluster = made_late(photon->cluster), first = world->tables.first[cluster],
-            count = world->tables.first[cluster + 1] - first;
-  const int members = world->tables.first[world->scene.cluster_count];
-  __global const float* cdf = world->wavelength_cdf + light * members + first;
+  const int cluster = made_late(photon->cluster), first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
+  const int members = world->tables.cluster_first[world->scene.cluster_count];
+  __global const float* cdf = world->tables.wavelength_cdf + light * members + first;
   const int member = choose(cdf, count, u);
   const float before = chance_before(cdf, member);
-  const Band band = {photon->cluster, world->tables.wavelengths[first + member], 1.0f / (cdf[member] - before)};
-  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f),
-                     stretch_origin(world, photon));
+  const Band band = {photon->cluster, world->tables.cluster_wavelengths[first + member], 1.0f / (cdf[member] - before)};
+  *x = place_in_tent(world, band.wavelength, clamp((u - before) * band.weight, 0.0f, 1.0f), stretch_origin(world, photon));
   return band;
 }
 

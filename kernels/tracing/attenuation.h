@@ -7,19 +7,14 @@
 #define NEPHROID_ATTENUATION_H
 
 #include "kernels/tracing/registers.h"
-#include "kernels/tracing/shared_types.h"
+#include "kernels/tracing/scene_table_types.h"
 
 #ifndef NEPHROID_ATTENUATORS
 #define NEPHROID_ATTENUATORS 1
 #endif
 
 typedef struct {
-  __global const int* first;         // of each cluster in `wavelengths`; one more at the end
-  __global const int* wavelengths;   // indices 0..400, cluster after cluster
-  __global const float* coefficient; // [attenuator][wavelength]
-  __global const float4*
-      light_xyz; // [light][wavelength]: share of the light's power times (xbar, ybar, zbar); w: the share alone
-  __global const float* reflectance; // [reflector][wavelength]
+  WAVELENGTH_TABLES(TABLE_MEMBER)
 } SpectralTables;
 
 typedef struct {
@@ -74,8 +69,8 @@ static inline float4 attenuated_sum(const SpectralTables* tables, const Losses* 
 {
   float4 sum = (float4)(0.0f);
   cluster = made_late(cluster);
-  for (int i = tables->first[cluster]; i < tables->first[cluster + 1]; ++i) {
-    const int wavelength = tables->wavelengths[i];
+  for (int i = tables->cluster_first[cluster]; i < tables->cluster_first[cluster + 1]; ++i) {
+    const int wavelength = tables->cluster_wavelengths[i];
     const float4 light_xyz = tables->light_xyz[light * WAVELENGTH_COUNT + wavelength];
     const float reflectance = reflector < 0 ? 1.0f : tables->reflectance[reflector * WAVELENGTH_COUNT + wavelength];
     sum += wavelength_left(tables, losses, wavelength) * (float4)(light_xyz.xyz * reflectance, light_xyz.w);

@@ -152,12 +152,14 @@ typedef struct {
   float metres_per_unit;
   float outside_distance; // directional photons start this far before their target: outside of everything
   int max_surfaces;       // that a path may meet before it counts as lost
+  int reflector_count;
+  DeviceBackground sky_size; // of the environment as a light, if it is one
 } DeviceScene;
 
 #ifndef __OPENCL_C_VERSION__
 static_assert(sizeof(DeviceMaterial) == 16 && sizeof(DeviceObject) == 8 && sizeof(Media) == 16);
 static_assert(sizeof(DeviceLight) == 112 && sizeof(DeviceTarget) == 16 && sizeof(DeviceEmitter) == 48);
-static_assert(sizeof(DeviceCamera) == 112 && sizeof(DeviceScene) == 32 && sizeof(DeviceBackground) == 16);
+static_assert(sizeof(DeviceCamera) == 112 && sizeof(DeviceScene) == 52 && sizeof(DeviceBackground) == 16);
 static_assert(sizeof(DevicePrimitive) == 64);
 } // namespace nephroid::shared
 #endif

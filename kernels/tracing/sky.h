@@ -14,12 +14,12 @@
 #ifndef NEPHROID_SKY_H
 #define NEPHROID_SKY_H
 
-#include "kernels/tracing/random.h"
 #include "kernels/tracing/light.h"
+#include "kernels/tracing/random.h"
+#include "kernels/tracing/scene_table_types.h"
 
 typedef struct {
-  __global const float* cdf; // exact_cdf of the rows, then of the texels of each row: by flux; then the same by peaks
-  __global const float* colour; // [row][column][3]: linear sRGB of a texel over its grey: Source::rgb
+  SKY_TABLES(TABLE_MEMBER)
   DeviceBackground size;
 } Sky;
 
@@ -32,10 +32,7 @@ typedef struct {
   float peak_density; // the chance among the peaks, a steradian
 } SkyPlace;
 
-static inline __global const float* cdf_of_peaks(const Sky* sky)
-{
-  return sky->cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1);
-}
+static inline __global const float* cdf_of_peaks(const Sky* sky) { return sky->texel_cdf + (size_t)sky->size.height * (size_t)(sky->size.width + 1); }
 
 static inline float sky_density(const Sky* sky, __global const float* cdf, int row, int column)
 {
@@ -50,9 +47,8 @@ static inline float sky_density(const Sky* sky, __global const float* cdf, int r
 
 static inline SkyPlace sky_texel(const Sky* sky, float3 direction, int row, int column)
 {
-  const SkyPlace place = {direction, vload3((size_t)row * (size_t)sky->size.width + (size_t)column, sky->colour),
-                          sky_density(sky, sky->cdf, row, column),
-                          sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
+  const SkyPlace place = {direction, vload3((size_t)row * (size_t)sky->size.width + (size_t)column, sky->texel_colour),
+                          sky_density(sky, sky->texel_cdf, row, column), sky->size.has_peaks ? sky_density(sky, cdf_of_peaks(sky), row, column) : 0.0f};
   return place;
 }
 
@@ -64,7 +60,7 @@ static inline float place_in_bin(__global const float* cdf, int bin, float numbe
   return (number + 0x1p-25f - before) / (cdf[bin] - before);
 }
 
-// cdf: sky->cdf, or that of the peaks, if it has any. place: two numbers in [0, 1).
+// cdf: sky->texel_cdf, or that of the peaks, if it has any. place: two numbers in [0, 1).
 static inline SkyPlace sample_sky(const Sky* sky, __global const float* cdf, float2 place)
 {
   const int width = made_late(sky->size.width), height = made_late(sky->size.height);

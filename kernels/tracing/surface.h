@@ -3,9 +3,9 @@
 #ifndef NEPHROID_SURFACE_H
 #define NEPHROID_SURFACE_H
 
-#include "kernels/tracing/shared_types.h"
 #include "kernels/tracing/bvh.h"
 #include "kernels/tracing/fresnel.h"
+#include "kernels/tracing/scene_table_types.h"
 
 #ifndef NEPHROID_SMOOTH
 #define NEPHROID_SMOOTH 1
@@ -13,9 +13,7 @@
 
 // The scene's triangles and ellipsoids as kernels see them.
 typedef struct {
-  __global const float* nodes;  // bvh.h
-  __global const float* blocks; // bvh.h
-  __global const DevicePrimitive* primitives;
+  GEOMETRY_TABLES(TABLE_MEMBER)
   int root;
 } Geometry;
 

@@ -16,41 +16,18 @@
 
 typedef struct {
   Geometry geometry;
-  __global const DeviceObject* objects;
-  __global const DeviceMaterial* materials;
-  __global const DeviceLight* lights;
-  __global const float* index_of_cluster;    // [cluster][material]: of refraction, the mean
-  __global const float* index_of_wavelength; // [401][material]
-  __global const float* wavelength_cdf;      // [light, or all of them at the end][member of cluster]: see band.h
-  __global const float* index_slope;         // [cluster][material]: dn/ds, see differential.h, here and below
-  __global const float4* stretch_place;      // [401]: s of a wavelength, of the one below it, of the one above
-  __global const float4* stretch_span; // [cluster]: s of its mean index, the lowest and the highest s of its light
-  __global const float4*
-      reflected_xyz; // [light][cluster][reflector]: sum of light * reflectance * (xbar, ybar, zbar); w: of light
+  OBJECT_TABLES(TABLE_MEMBER)
   SpectralTables tables;
+  STRETCH_TABLES(TABLE_MEMBER)
   Sky sky; // empty where no environment is a light
-  int reflector_count;
   DeviceScene scene;
 } World;
 
-// The buffers that a World is made of, as kernel arguments.
-#define WORLD_ARGUMENTS                                                                                                \
-  __global const float *nodes, __global const float *blocks, __global const DevicePrimitive *primitives,               \
-      __global const DeviceObject *objects, __global const DeviceMaterial *materials,                                  \
-      __global const DeviceLight *lights, __global const float *index_of_cluster,                                      \
-      __global const float *index_of_wavelength, __global const float *wavelength_cdf,                                 \
-      __global const float *index_slope, __global const float4 *stretch_place, __global const float4 *stretch_span,    \
-      __global const float4 *reflected_xyz, __global const int *cluster_first,                                         \
-      __global const int *cluster_wavelengths, __global const float *coefficient, __global const float4 *light_xyz,    \
-      __global const float *reflectance, __global const float *sky_cdf, __global const float *sky_colour,              \
-      DeviceBackground sky_size, int reflector_count, DeviceScene scene
-#define WORLD                                                                                                          \
-  {                                                                                                                    \
-    {nodes, blocks, primitives, scene.root}, objects, materials, lights, index_of_cluster,                             \
-        index_of_wavelength, wavelength_cdf, index_slope, stretch_place, stretch_span, reflected_xyz,                  \
-        {cluster_first, cluster_wavelengths, coefficient, light_xyz, reflectance}, {sky_cdf, sky_colour, sky_size},    \
-        reflector_count, scene                                                                                         \
-  }
+// What a World is made of, as kernel arguments.
+#define WORLD_ARGUMENTS WORLD_TABLES(TABLE_ARGUMENT) DeviceScene scene
+#define WORLD \
+  {{GEOMETRY_TABLES(TABLE_VALUE) scene.root}, OBJECT_TABLES(TABLE_VALUE) {WAVELENGTH_TABLES(TABLE_VALUE)}, \
+   STRETCH_TABLES(TABLE_VALUE) {SKY_TABLES(TABLE_VALUE) scene.sky_size}, scene}
 
 typedef struct {
   float3 origin, direction;
@@ -102,9 +79,9 @@ static inline void lose_in_medium(const World* world, Path* path, float distance
 static inline __global const float* index_of_band(const World* world, const Band* band)
 {
 #if NEPHROID_JITTER
-  if (band->wavelength >= 0) return world->index_of_wavelength + band->wavelength * world->scene.material_count;
+  if (band->wavelength >= 0) return world->tables.index_of_wavelength + band->wavelength * world->scene.material_count;
 #endif
-  return world->index_of_cluster + band->cluster * world->scene.material_count;
+  return world->tables.index_of_cluster + band->cluster * world->scene.material_count;
 }
 
 // The band of a path in a cluster. light: the one that its light comes from, or light_count for a path that any light
@@ -112,10 +89,9 @@ static inline __global const float* index_of_band(const World* world, const Band
 static inline Band choose_band(const World* world, int light, int cluster, float u)
 {
 #if NEPHROID_JITTER
-  const int first = world->tables.first[cluster], count = world->tables.first[cluster + 1] - first;
-  const int members = world->tables.first[world->scene.cluster_count];
-  return wavelength_of_cluster(cluster, world->tables.wavelengths + first,
-                               world->wavelength_cdf + light * members + first, count, u);
+  const int first = world->tables.cluster_first[cluster], count = world->tables.cluster_first[cluster + 1] - first;
+  const int members = world->tables.cluster_first[world->scene.cluster_count];
+  return wavelength_of_cluster(cluster, world->tables.cluster_wavelengths + first, world->tables.wavelength_cdf + light * members + first, count, u);
 #else
   return whole_cluster(cluster);
 #endif
@@ -171,7 +147,7 @@ static inline Source source_of(const World* world, int index, float2 place, Devi
 {
   Source source = {index, (float3)(1.0f)};
   if (is_light(light, LIGHT_ENVIRONMENT)) {
-    const SkyPlace from = sample_sky(&world->sky, world->sky.cdf, place);
+    const SkyPlace from = sample_sky(&world->sky, world->sky.texel_cdf, place);
     light->direction.xyz = -from.direction;
     source.rgb = from.rgb;
   }
@@ -210,8 +186,7 @@ static inline float4 carried_row(const World* world, const Losses* losses, int l
 #if NEPHROID_ATTENUATORS > 0
   if (losses->any || reflector < 0) return attenuated_sum(&world->tables, losses, light, band->cluster, reflector);
 #endif
-  return world
-      ->reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->reflector_count + reflector];
+  return world->tables.reflected_xyz[(light * world->scene.cluster_count + band->cluster) * world->scene.reflector_count + reflector];
 }
 
 // What a path in a band still carries of a light after its losses, if the light's power is 1: w: the power; xyz: what a

@@ -21,7 +21,7 @@ kernel void places(global const float* cdf, global const float* colour, DeviceBa
   const uint i = get_global_id(0);
   if (i >= count) return;
   const Sky sky = {cdf, colour, size};
-  const SkyPlace drawn = sample_sky(&sky, by_peaks ? cdf_of_peaks(&sky) : sky.cdf, random4(seed, 0u, i, 0u, STREAM_PHOTONS).xy),
+  const SkyPlace drawn = sample_sky(&sky, by_peaks ? cdf_of_peaks(&sky) : sky.texel_cdf, random4(seed, 0u, i, 0u, STREAM_PHOTONS).xy),
                  seen = sky_in(&sky, drawn.direction);
   out[3 * i] = (float4)(drawn.direction, drawn.density);
   out[3 * i + 1] = (float4)(drawn.rgb, seen.density);
@@ -46,8 +46,8 @@ void expect_drawn(const scene::Environment& map, bool by_peaks, double floor)
 {
   const tracing::SkyTables tables = tracing::make_sky_tables(map);
   static const TestKernels kernels(source);
-  const compute::Buffer<float> cdf(kernels.context(), "cdf", std::span<const float>(tables.cdf)),
-      colour(kernels.context(), "colour", std::span<const float>(tables.colour));
+  const compute::Buffer<float> cdf(kernels.context(), "cdf", std::span<const float>(tables.texel_cdf)),
+      colour(kernels.context(), "colour", std::span<const float>(tables.texel_colour));
   const compute::Buffer<float4> out(kernels.context(), "out", 3 * std::size_t{count});
   kernels.kernel("places").run(count, 64,
                                {{"cdf", cdf},

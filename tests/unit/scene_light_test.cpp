@@ -280,10 +280,10 @@ TEST(SkyTables, PhotonsCarryAlike)
   const scene::Environment map = uneven();
   const tracing::SkyTables tables = tracing::make_sky_tables(map);
   const double all = scene::flux_of(map).grey;
-  ASSERT_EQ(tables.cdf.size(), 2 * (8u + 64u)) << "and of the peaks";
-  ASSERT_EQ(tables.colour.size(), map.rgb.size());
+  ASSERT_EQ(tables.texel_cdf.size(), 2 * (8u + 64u)) << "and of the peaks";
+  ASSERT_EQ(tables.texel_colour.size(), map.rgb.size());
   const auto chance = [&](std::size_t first, std::size_t i) {
-    return static_cast<double>(tables.cdf[first + i]) - (i > 0 ? static_cast<double>(tables.cdf[first + i - 1]) : 0.0);
+    return static_cast<double>(tables.texel_cdf[first + i]) - (i > 0 ? static_cast<double>(tables.texel_cdf[first + i - 1]) : 0.0);
   };
   for (std::size_t row = 0; row < 8; ++row)
     for (std::size_t column = 0; column < 8; ++column) {
@@ -292,7 +292,7 @@ TEST(SkyTables, PhotonsCarryAlike)
                    steradians = scene::texel_steradians(map, static_cast<int>(row));
       EXPECT_NEAR(drawn, grey * steradians / all, 16 * 0x1p-24); // a quantum for each of a row, and of the rows
       for (std::size_t c = 0; c < 3; ++c) {
-        const double colour = static_cast<double>(tables.colour[3 * texel + c]);
+        const double colour = static_cast<double>(tables.texel_colour[3 * texel + c]);
         EXPECT_NEAR(drawn * colour, static_cast<double>(map.rgb[3 * texel + c]) * steradians / all, 1e-7 * drawn * colour);
         EXPECT_LE(colour, 3 * 1.01);
       }
@@ -307,11 +307,12 @@ TEST(SkyTables, NothingIsLostBesideASun)
   const scene::Environment map = map_of(32, rgb);
   const tracing::SkyTables tables = tracing::make_sky_tables(map);
   constexpr std::size_t size = 16 + 32 * 16;
-  for (std::size_t i = 0; i < size; ++i) EXPECT_GT(tables.cdf[i], i == 0 || (i >= 16 && (i - 16) % 32 == 0) ? 0 : tables.cdf[i - 1]);
-  EXPECT_EQ(tables.cdf[size], 1) << "its row is all of the peaks";
-  for (std::size_t i = 3; i < tables.colour.size(); ++i) {
-    EXPECT_GT(tables.colour[i], 0);
-    EXPECT_LT(tables.colour[i], 1e-6f);
+  for (std::size_t i = 0; i < size; ++i)
+    EXPECT_GT(tables.texel_cdf[i], i == 0 || (i >= 16 && (i - 16) % 32 == 0) ? 0 : tables.texel_cdf[i - 1]);
+  EXPECT_EQ(tables.texel_cdf[size], 1) << "its row is all of the peaks";
+  for (std::size_t i = 3; i < tables.texel_colour.size(); ++i) {
+    EXPECT_GT(tables.texel_colour[i], 0);
+    EXPECT_LT(tables.texel_colour[i], 1e-6f);
   }
 }
 

@@ -58,14 +58,15 @@ TEST(Stretch, OfOneCurveSIsTheIndexOfRefraction)
   EXPECT_EQ(tables.index_slope[0], 1);
   EXPECT_EQ(tables.index_slope[1], 0);
   for (std::size_t w = 1; w + 1 < 401; ++w) {
-    EXPECT_NEAR(tables.place[w].x, cauchy(380.0 + double(w)) - cauchy(580), 1e-8);
-    EXPECT_EQ(tables.place[w].y, tables.place[w - 1].x);
-    EXPECT_EQ(tables.place[w].z, tables.place[w + 1].x);
-    EXPECT_EQ(tables.span[w].x, tables.place[w].x);
-    EXPECT_EQ(tables.span[w].y, tables.place[w].z); // n falls
-    EXPECT_EQ(tables.span[w].z, tables.place[w].y);
+    EXPECT_NEAR(tables.stretch_place[w].x, cauchy(380.0 + double(w)) - cauchy(580), 1e-8);
+    EXPECT_EQ(tables.stretch_place[w].y, tables.stretch_place[w - 1].x);
+    EXPECT_EQ(tables.stretch_place[w].z, tables.stretch_place[w + 1].x);
+    EXPECT_EQ(tables.stretch_span[w].x, tables.stretch_place[w].x);
+    EXPECT_EQ(tables.stretch_span[w].y, tables.stretch_place[w].z); // n falls
+    EXPECT_EQ(tables.stretch_span[w].z, tables.stretch_place[w].y);
   }
-  EXPECT_NEAR(tables.place[0].y - tables.place[0].x, tables.place[0].x - tables.place[0].z, 1e-8); // on beyond the end
+  EXPECT_NEAR(tables.stretch_place[0].y - tables.stretch_place[0].x, tables.stretch_place[0].x - tables.stretch_place[0].z,
+              1e-8); // on beyond the end
 }
 
 TEST(Stretch, OfSeveralCurvesTheSlopesAreThoseOfTheCurves)
@@ -73,23 +74,23 @@ TEST(Stretch, OfSeveralCurvesTheSlopesAreThoseOfTheCurves)
   const tracing::StretchTables tables = make_stretch_tables(scene_of({curve(cauchy), curve(crown)}), {{198, 199, 200, 201, 202}}, all_lit);
   EXPECT_NEAR(tables.index_slope[0], -2 * 15000 / std::pow(580.0, 3), 2e-8);
   EXPECT_NEAR(tables.index_slope[1], -2 * 5000 / std::pow(580.0, 3), 1e-8);
-  EXPECT_NEAR(tables.span[0].x, 0, 1e-12);
-  EXPECT_EQ(tables.span[0].y, -3);
-  EXPECT_EQ(tables.span[0].z, 3);
+  EXPECT_NEAR(tables.stretch_span[0].x, 0, 1e-12);
+  EXPECT_EQ(tables.stretch_span[0].y, -3);
+  EXPECT_EQ(tables.stretch_span[0].z, 3);
 }
 
 TEST(Stretch, NothingLiesBetweenTheSidesOfAJump)
 {
   const tracing::StretchTables tables = make_stretch_tables(scene_of({curve(staircase)}), each_alone(), all_lit);
-  EXPECT_EQ(tables.place[119].z, tables.place[119].x); // 499 nm
-  EXPECT_EQ(tables.place[120].y, tables.place[120].x);
-  EXPECT_NEAR(tables.place[119].x - tables.place[120].x, 0.2, 1e-7);
+  EXPECT_EQ(tables.stretch_place[119].z, tables.stretch_place[119].x); // 499 nm
+  EXPECT_EQ(tables.stretch_place[120].y, tables.stretch_place[120].x);
+  EXPECT_NEAR(tables.stretch_place[119].x - tables.stretch_place[120].x, 0.2, 1e-7);
 }
 
 TEST(Stretch, AnExtremeOfACurveIsNoJump)
 {
   const tracing::StretchTables tables = make_stretch_tables(scene_of({curve(valley)}), each_alone(), all_lit);
-  for (std::size_t w = 1; w < 401; ++w) EXPECT_EQ(tables.place[w].y, tables.place[w - 1].x) << w;
+  for (std::size_t w = 1; w < 401; ++w) EXPECT_EQ(tables.stretch_place[w].y, tables.stretch_place[w - 1].x) << w;
 }
 
 TEST(Stretch, ASpanHoldsTheLitWavelengthsOnlyAndDarkClustersHaveNone)
@@ -97,10 +98,11 @@ TEST(Stretch, ASpanHoldsTheLitWavelengthsOnlyAndDarkClustersHaveNone)
   std::vector<bool> lit = all_lit;
   lit[10] = lit[11] = lit[20] = false;
   const tracing::StretchTables tables = make_stretch_tables(scene_of({curve(cauchy)}), {{9, 10, 11}, {20}, {30}}, lit);
-  ASSERT_EQ(tables.span.size(), 2u);
-  EXPECT_EQ(tables.span[0].z, tables.place[9].y);
-  EXPECT_EQ(tables.span[0].y, tables.place[9].z);
-  EXPECT_NEAR(tables.span[0].x, (tables.place[9].x + tables.place[10].x + tables.place[11].x) / 3, 1e-8); // as the mean index
+  ASSERT_EQ(tables.stretch_span.size(), 2u);
+  EXPECT_EQ(tables.stretch_span[0].z, tables.stretch_place[9].y);
+  EXPECT_EQ(tables.stretch_span[0].y, tables.stretch_place[9].z);
+  EXPECT_NEAR(tables.stretch_span[0].x, (tables.stretch_place[9].x + tables.stretch_place[10].x + tables.stretch_place[11].x) / 3,
+              1e-8); // as the mean index
 }
 
 TEST(Stretch, RunsAreOfNeighboursAndLoseNoWavelength)

@@ -102,7 +102,7 @@ void Renderer::find_around()
 
 void Renderer::light_up()
 {
-  world_.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
+  world_.scene.sky_size.turns = texels_size_.turns = static_cast<float>(rotate_deg_ / 360);
   visible_ = occlusion_ && surroundings_ ? occlusion_->visible_lights(surroundings_->world, rotate_deg_, task_.surface_points)
                                          : whole_lights(task_.segmentation);
   std::vector<shared::float4> sky_lights;

@@ -185,8 +185,7 @@ std::vector<int> caustic_objects(const scene::Scene& scene)
 std::vector<double> watts(std::span<const scene::Light> lights, const std::vector<double>& parts)
 {
   std::vector<double> result;
-  for (std::size_t i = 0; i < lights.size(); ++i)
-    result.push_back(parts[i] * (lights[i].type == preset::Light::Type::directional ? lights[i].irradiance_w_m2 : lights[i].power_w));
+  for (std::size_t i = 0; i < lights.size(); ++i) result.push_back(parts[i] * scene::radiometric(lights[i]));
   return result;
 }
 

@@ -65,7 +65,7 @@ LayerLight layer_light(const scene::Scene& scene, double white)
   LayerLight light;
   for (const scene::Light& l : scene.lights) {
     light.spectra.push_back(l.spectrum);
-    light.power.push_back(l.power_w + l.irradiance_w_m2); // the one that its type does not have is 0
+    light.power.push_back(scene::radiometric(l));
   }
   light.white = white;
   return light;

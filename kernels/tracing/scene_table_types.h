@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables of a scene, each on one line: TABLE(type of an item, name, words for messages). The host's vectors, the
+// buffers, their upload and the plan's memory (app/tracing), the kernels' arguments and the structs that these are read
+// from (world.h) follow from these lists. A new table is a line here and the code that fills it.
+#ifndef NEPHROID_SCENE_TABLE_TYPES_H
+#define NEPHROID_SCENE_TABLE_TYPES_H
+
+#include "kernels/tracing/shared_types.h"
+
+// clang-format off
+
+// Where surfaces are: bvh.h, surface.h.
+#define GEOMETRY_TABLES(TABLE) \
+  TABLE(float, nodes, "tree nodes") \
+  TABLE(float, blocks, "tree triangles") \
+  TABLE(DevicePrimitive, primitives, "triangles")
+
+#define OBJECT_TABLES(TABLE) \
+  TABLE(DeviceObject, objects, "objects") \
+  TABLE(DeviceMaterial, materials, "materials") \
+  TABLE(DeviceLight, lights, "lights") /* without those that are left out */
+
+// A lamp has one row of light, the environment three, one for each primary (sky.h). Indices of refraction are 1 for
+// what is no dielectric.
+#define WAVELENGTH_TABLES(TABLE) \
+  TABLE(int, cluster_first, "cluster starts") /* [cluster + 1]: where it begins in the next table */ \
+  TABLE(int, cluster_wavelengths, "cluster wavelengths") /* indices 0..400, cluster after cluster */ \
+  TABLE(float, index_of_cluster, "index of refraction of each cluster") /* [cluster][material]: the mean */ \
+  TABLE(float, index_of_wavelength, "index of refraction of each wavelength") /* [401][material] */ \
+  TABLE(float, wavelength_cdf, "choice of a wavelength") /* [light, then all][of cluster_wavelengths]: band.h */ \
+  TABLE(float, coefficient, "attenuation") /* [attenuator][401]: 1/m; mirror: -ln(reflectance) */ \
+  TABLE(float, reflectance, "reflectance") /* [reflector][401] */ \
+  TABLE(float4, light_xyz, "light spectra") /* [row][401]: share * (xbar, ybar, zbar), share */ \
+  TABLE(float4, reflected_xyz, "reflected colours by cluster") /* [row][cluster][reflector]; w: as of a white one */
+
+// Where wavelengths lie on the parameter s, and dn/ds: differential.h.
+#define STRETCH_TABLES(TABLE) \
+  TABLE(float, index_slope, "slope of the index of refraction") /* [cluster][material]: dn/ds */ \
+  TABLE(float4, stretch_place, "stretch of each wavelength") /* [401]: s of it, of 1 nm below, of 1 nm above */ \
+  TABLE(float4, stretch_span, "stretch of each cluster") /* [cluster]: s of its mean index; lowest, highest s */
+
+// The environment as a light: sky.h. Empty where it is none. The cdf is exact_cdf of the rows by flux, then of the
+// texels of each row, then the same by peaks, if it has any.
+#define SKY_TABLES(TABLE) \
+  TABLE(float, texel_cdf, "environment as a light, choice of a texel") \
+  TABLE(float, texel_colour, "environment as a light") /* [row][column][3]: linear sRGB of a texel over grey */
+
+// Tables that only some kernels read, as arguments of their own.
+#define TARGET_TABLES(TABLE) \
+  TABLE(DeviceTarget, targets, "targets") /* lists: DeviceLight::first_target */
+#define COLOUR_TABLES(TABLE) \
+  TABLE(float, cluster_cdf, "cluster choice") /* [cluster + 1]: what paths through glass are worth */ \
+  TABLE(float4, reflected_xyz_all, "reflected colours") /* [row][reflector]: reflected_xyz of all clusters */
+
+// Tables that every kernel of the scene reads: WORLD_ARGUMENTS.
+#define WORLD_TABLES(TABLE) \
+  GEOMETRY_TABLES(TABLE) OBJECT_TABLES(TABLE) WAVELENGTH_TABLES(TABLE) STRETCH_TABLES(TABLE) SKY_TABLES(TABLE)
+#define SCENE_TABLES(TABLE) WORLD_TABLES(TABLE) TARGET_TABLES(TABLE) COLOUR_TABLES(TABLE)
+
+// clang-format on
+
+#ifdef __OPENCL_C_VERSION__
+#define TABLE_MEMBER(type, name, words) __global const type* name;
+#define TABLE_ARGUMENT(type, name, words) __global const type *name,
+#define TABLE_VALUE(type, name, words) name,
+#else
+#define TABLE_VECTOR(type, name, words) std::vector<type> name;
+#endif
+
+#endif
