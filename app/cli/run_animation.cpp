@@ -4,6 +4,7 @@
 #include "base/numbers.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
+#include "preset/animation.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "run/animation.h"

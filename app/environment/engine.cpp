@@ -3,6 +3,8 @@
 
 #include "environment/checks.h"
 #include "environment/view/scene_view.h"
+#include "environment/job.h"
+#include "environment/settings.h"
 
 #include <algorithm>
 

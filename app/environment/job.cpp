@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
+#include "environment/job.h"
+
+#include "base/error.h"
 #include "base/hashed_bytes.h"
 #include "environment/bake/baking.h"
 #include "environment/engine.h"

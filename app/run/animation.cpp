@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/animation.h"
 
+#include "preset/animation.h"
 #include "base/files.h"
 #include "base/numbers.h"
 #include "image/image.h"

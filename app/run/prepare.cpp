@@ -4,6 +4,7 @@
 #include "engine/engine.h"
 #include "run/content.h"
 #include "run/memory.h"
+#include "scene/camera_and_lights.h"
 
 #include <cstring>
 #include <utility>

@@ -8,8 +8,8 @@
 #include "base/json_output.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
-#include "report/data.h"
 #include "run/folder.h"
+#include "report/report.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

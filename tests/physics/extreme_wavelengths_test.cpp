@@ -3,6 +3,7 @@
 // nanometre, photons one at a time and lights by the thousand, streaks at grazing incidence and beside total reflection, layers for any
 // light. docs/notebook/extremes.md sums it up.
 #include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
 #include "spectral/settings.h"
 #include "tests/support/extreme_waves.h"
 

@@ -4,6 +4,7 @@
 #include "formats/import/gltf_scene.h"
 #include "formats/import/import.h"
 #include "optics/dispersion.h"
+#include "optics/dispersion_file.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"
 #include "scene/scene.h"

@@ -9,9 +9,9 @@
 #include "measure/run_curves.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
-#include "report/data.h"
 #include "run/prepare.h"
 #include "run/write_run.h"
+#include "report/report.h"
 #include "ui/state/files.h"
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 // diffuse or mirror light. m_i(lambda) is the largest reflectance over all directions (4.1.2); that of a mirror here is the same in each.
 #include "photons/effort/importance.h"
 
+#include "scene/ray.h"
 #include "tracing/targets.h"
 
 #include <algorithm>
