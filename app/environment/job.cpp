@@ -113,7 +113,7 @@ public:
   /// A bake that was complete is in its file, or is baked again.
   void load(ByteSource& source) override
   {
-    tracing::State state(source);
+    tracing::State state(source, context_.communicator());
     double bake_seconds = 0, render_seconds = 0;
     bool complete = false;
     state.value(bake_seconds);
@@ -286,7 +286,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const mpi::RankContext& context)
 {
   return std::make_unique<EnvironmentJob>(preset, plan, context);
 }

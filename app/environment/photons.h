@@ -3,6 +3,7 @@
 #pragma once
 #include "environment/view/renderer.h"
 #include "photons/job.h"
+#include "mpi/rank_context.h"
 
 #include <cstdint>
 #include <memory>
@@ -15,7 +16,7 @@ photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& 
 
 /// plan: of the same preset and scene. Null where there are no caustics. Throws as photons::make_job.
 std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
-                                           const photons::RunPlan& plan, const compute::Context& context);
+                                           const photons::RunPlan& plan, const mpi::RankContext& context);
 
 class SceneView;
 

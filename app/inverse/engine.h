@@ -3,6 +3,7 @@
 #pragma once
 #include "engine/engine.h"
 #include "preset/preset.h"
+#include "mpi/rank_context.h"
 
 namespace nephroid::inverse {
 

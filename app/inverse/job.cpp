@@ -184,7 +184,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context)
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const mpi::RankContext& context)
 {
   return std::make_unique<InverseJob>(preset, plan, context);
 }

@@ -144,13 +144,13 @@ public:
 
   void save(ByteSink& sink) override
   {
-    tracing::State state(sink);
+    tracing::State state(sink, world_.context.communicator());
     this->state(state);
   }
 
   void load(ByteSource& source) override
   {
-    tracing::State state(source);
+    tracing::State state(source, world_.context.communicator());
     this->state(state);
     world_.context.finish();
   }
@@ -204,7 +204,7 @@ private:
 } // namespace
 
 std::unique_ptr<PhotonJob> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
-                              const compute::Context& context)
+                              const mpi::RankContext& context)
 {
   return std::make_unique<PassesJob>(preset, scene, bvh, plan, context);
 }

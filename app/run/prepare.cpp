@@ -90,7 +90,7 @@ Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::str
   return other;
 }
 
-std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context)
+std::unique_ptr<job::Job> make_job(const Prepared& prepared, const mpi::RankContext& context)
 {
   return engine::engine_of(prepared.preset).job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, *prepared.plan, context);
 }
