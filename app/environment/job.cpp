@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 
 class EnvironmentJob final : public job::Job {
 public:
-  EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
+  EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const mpi::RankContext& context)
       : preset_(preset), width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
         sphere_white_(plan.render ? 0.2 : preset.white.value()), stop_(preset.stop),
         // Where there is no light the bake is all, and the preset's passes are directions.
@@ -101,7 +101,7 @@ public:
 
   void save(ByteSink& sink) override
   {
-    tracing::State state(sink);
+    tracing::State state(sink, context_.communicator());
     bool complete = baking_.is_complete();
     state.value(bake_seconds_);
     state.value(render_seconds_);

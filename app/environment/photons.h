@@ -23,7 +23,7 @@ class SceneView;
 /// Photons that join the picture of a renderer, in batches between its passes of paths from the eye.
 class JoinedPhotons {
 public:
-  explicit JoinedPhotons(const compute::Context& context) : context_(context) {}
+  explicit JoinedPhotons(const mpi::RankContext& context) : context_(context) {}
 
   /// preset, plan: of the renderer's scene.
   void begin(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const photons::RunPlan& plan);
@@ -52,7 +52,7 @@ public:
   void state(tracing::State& state, const SceneView& view);
 
 private:
-  compute::Context context_;
+  mpi::RankContext context_;
   std::unique_ptr<photons::PhotonJob> run_; ///< null: there are none, or not yet
   bool has_planned_ = false;          ///< whether it is known which
   double ahead_ = 0;

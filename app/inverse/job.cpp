@@ -27,7 +27,7 @@ constexpr double judge_part = 0.1;
 
 class InverseJob final : public job::Job {
 public:
-  InverseJob(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context)
+  InverseJob(const preset::Preset& preset, const InversePlan& plan, const mpi::RankContext& context)
       : context_(context), preset_(preset), layout_(plan.design->layout), targets_(plan.design->targets), best_(plan.design->best()),
         search_(preset_, layout_, targets_, plan.triangles, context)
   {
@@ -169,7 +169,7 @@ private:
     add_object(snapshot, layout_, *judgement_->solid(), run.method.slopes());
   }
 
-  compute::Context context_;
+  mpi::RankContext context_;
   preset::Preset preset_;
   Layout layout_;
   std::vector<Target> targets_, best_;

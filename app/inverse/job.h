@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A run of engine 3: slopes, then the solid, then its judgement.
 #pragma once
-#include "compute/compute.h"
 #include "inverse/plan.h"
 #include "job/job.h"
+#include "mpi/rank_context.h"
 
 #include <memory>
 
 namespace nephroid::inverse {
 
 /// Looks for slopes until the method gains no more, or the preset's stop; then makes the solid and judges it. plan: of the same preset.
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context);
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const mpi::RankContext& context);
 
 } // namespace nephroid::inverse

@@ -2,6 +2,7 @@
 // What becomes of slopes once they are found: the solid, its judge, and the same with errors of making where they are asked for.
 #pragma once
 #include "inverse/tolerances.h"
+#include "mpi/rank_context.h"
 
 #include <memory>
 #include <optional>
@@ -13,7 +14,7 @@ namespace nephroid::inverse {
 class Judgement {
 public:
   /// Preset, context, layout and targets outlive it. Throws as Judge.
-  Judgement(const preset::Preset& preset, const compute::Context& context, const Layout& layout, const std::vector<Target>& targets,
+  Judgement(const preset::Preset& preset, const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
             Solid solid)
       : solid_(std::make_shared<const Solid>(std::move(solid))), judge_(context, layout, *solid_, preset.seed, targets)
   {

@@ -9,7 +9,7 @@
 namespace nephroid::inverse {
 
 Search::Search(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets, std::uint64_t triangles,
-               const compute::Context& context)
+               const mpi::RankContext& context)
     : context_(context), preset_(preset), layout_(layout), triangles_(triangles), method_(make_method(preset, layout, targets, context))
 {
   note_step();

@@ -2,6 +2,7 @@
 // The search for slopes: a method, step after step, until it gains no more or the preset's stop, of whose seconds the judge gets its part.
 #pragma once
 #include "inverse/method.h"
+#include "mpi/rank_context.h"
 
 #include <cstdint>
 #include <memory>
@@ -14,7 +15,7 @@ class Search {
 public:
   /// triangles: of the solid, about. Preset, layout and targets outlive it, and may change as begin_count() has it.
   Search(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets, std::uint64_t triangles,
-         const compute::Context& context);
+         const mpi::RankContext& context);
 
   const Method& method() const { return *method_; }
   /// Asks how long the judge takes, where seconds end the search. The same on each rank.
@@ -58,7 +59,7 @@ private:
   double last_step_seconds() const;
   std::optional<std::int64_t> most_steps() const;
 
-  compute::Context context_;
+  mpi::RankContext context_;
   const preset::Preset& preset_;
   const Layout& layout_;
   std::uint64_t triangles_;

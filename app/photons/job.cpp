@@ -52,7 +52,7 @@ std::optional<BlockSmoothing> make_smoothing(const RunPlan& plan, const scene::S
 class PassesJob final : public PhotonJob, public job::SpectrumSource {
 public:
   PassesJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
-            const compute::Context& context)
+            const mpi::RankContext& context)
       : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white.value(),
                plan.estimates_error ? 2u : 1u},
         preset_(preset), passes_(plan.tables.batches), preview_(world_, edges_of_previews(plan, scene)),

@@ -40,7 +40,7 @@ Prepared with_scene(const Prepared& prepared, scene::Scene scene, const std::str
 
 /// Builds the engine's job on a device, whose memory was asked for (require_memory). Its preset's white is a number. Throws BuildError for
 /// a kernel that does not compile, and bad_input for what the engine cannot render.
-std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
+std::unique_ptr<job::Job> make_job(const Prepared& prepared, const mpi::RankContext& context);
 
 /// A picture that something else is made of: not measured, nothing written. stepped: hears of each step, and says whether another one
 /// follows; may throw. Throws as require_memory and make_job do.

@@ -76,19 +76,14 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
   }
   Prepared next = prepare(preset, run.prepared ? &*run.prepared : nullptr, options.watch);
   run.job = taken_over(run, next);
-  run.together.reset();
   const Prepared& prepared = run.prepared.emplace(std::move(next));
   if (options.planned) options.planned(prepared);
   const compute::Context& context = run.device.context(options.watch);
   if (options.ranks) require_same(*options.ranks, prepared, context);
   if (!run.job) require_memory(prepared, context, options.ranks);
   const Communicator communicator(options.ranks);
-  const auto join_ranks = [&] {
-    if (!communicator.is_alone()) run.together = std::make_unique<compute::Together>(context, communicator);
-  };
   if (!communicator.is_root()) {
-    join_ranks();
-    run.job = make_job(prepared, context);
+    run.job = make_job(prepared, {context, communicator});
     return;
   }
   const compute::TellOfCompiling telling(context, [&] { options.watch.begin("compiling kernels"); });
@@ -96,8 +91,7 @@ void make_ready(ReadyRun& run, preset::Preset preset, const ReadyOptions& option
   run.reference = reference_of(prepared, context, options);
   if (!run.job) {
     options.watch.begin("setting up the run");
-    join_ranks();
-    run.job = make_job(prepared, context);
+    run.job = make_job(prepared, {context, communicator});
     if (!communicator.is_alone()) run.job = job::distributed(std::move(run.job), communicator);
     run.job = measure::measured(std::move(run.job), preset, run.reference, options.began, options.measure_at);
     run.name_in_job = preset.name;

@@ -22,7 +22,6 @@ struct ReadyRun {
   std::shared_ptr<const measure::Reference> reference; ///< null where it is measured against none
   std::unique_ptr<ClaimedFolder> claimed;              ///< null where it writes no files
   bool resumed = false;                                ///< it goes on from a checkpoint
-  std::unique_ptr<compute::Together> together;         ///< null where this process is alone
   std::unique_ptr<job::Job> job;                       ///< measures itself; of another rank than 0: follows that of rank 0
   std::string name_in_job;                             ///< the name of the preset that the job was made of
 };

@@ -9,7 +9,7 @@
 namespace nephroid::environment {
 
 Baking::Baking(std::shared_ptr<const BakeTask> task, std::uint64_t key, std::filesystem::path file, bool reads, std::size_t directions,
-               const compute::Context& context)
+               const mpi::RankContext& context)
     : task_(std::move(task)), context_(context),
       file_(std::move(file)), identity_{key, hash_of(compute::kernel_source(context, "environment/bake.cl"))}, wanted_(directions)
 {

@@ -2,6 +2,7 @@
 // The bake of a run: read from its file, or made slice by slice and then kept there.
 #pragma once
 #include "environment/bake/baker.h"
+#include "mpi/rank_context.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +18,7 @@ public:
   /// key: of the bake. directions: how many it will be asked for. reads: the file is there and looks right; where it turns out wrong, that
   /// is a warning. Throws as Baker.
   Baking(std::shared_ptr<const BakeTask> task, std::uint64_t key, std::filesystem::path file, bool reads, std::size_t directions,
-         const compute::Context& context);
+         const mpi::RankContext& context);
 
   const BakeTask& task() const { return *task_; }
   bool is_complete() const { return bake_.has_value(); }
@@ -47,7 +48,7 @@ private:
   void keep();
 
   std::shared_ptr<const BakeTask> task_;
-  compute::Context context_;
+  mpi::RankContext context_;
   std::filesystem::path file_;
   BakeIdentity identity_;
   std::size_t wanted_;

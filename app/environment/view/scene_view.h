@@ -2,6 +2,7 @@
 // What a run shows of its scene: a renderer that goes from one preset to the next, and begins again only where it must.
 #pragma once
 #include "environment/view/renderer.h"
+#include "mpi/rank_context.h"
 
 #include <memory>
 #include <optional>
@@ -20,7 +21,7 @@ preset::Preset with_places_of(const preset::Preset& preset, const preset::Preset
 class SceneView {
 public:
   /// task: of the preset, with this caster, which outlives it.
-  SceneView(const preset::Preset& preset, std::shared_ptr<const RenderTask> task, const Caster& caster, const compute::Context& context)
+  SceneView(const preset::Preset& preset, std::shared_ptr<const RenderTask> task, const Caster& caster, const mpi::RankContext& context)
       : shown_(preset), loaded_(preset), task_(std::move(task)), caster_(caster), context_(context)
   {
   }
@@ -57,7 +58,7 @@ private:
   preset::Preset loaded_; ///< what task_ is of
   std::shared_ptr<const RenderTask> task_;
   const Caster& caster_;
-  compute::Context context_;
+  mpi::RankContext context_;
   std::optional<Caustics> caustics_;
   double caustics_seconds_before_ = 0; ///< of Caustics::seconds(), before the picture began
   std::optional<Renderer> renderer_;
