@@ -12,6 +12,7 @@
 #include <imgui.h>
 #include <implot.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <tuple>

@@ -11,6 +11,8 @@
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace nephroid::ui {
 namespace {
 

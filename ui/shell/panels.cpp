@@ -14,13 +14,15 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
+
 namespace nephroid::ui {
 namespace {
 
 /// Those of an engine stand together, in the middle.
 std::vector<PanelEntry> make_table()
 {
-  std::vector<PanelEntry> table{{"view", ViewPanel::title, "", make_panel<ViewPanel>, ViewedScene::look},
+  std::vector<PanelEntry> table{{"view", ViewPanel::title, "", make_panel<ViewPanel>, ViewedScene::take},
                                 {"error", ErrorPanel::title, "", make_panel<ErrorPanel>},
                                 {"parameters", ParametersPanel::title, "", make_panel<ParametersPanel>},
                                 {"runs", RunsPanel::title, "", make_panel<RunsPanel>}};
@@ -78,12 +80,12 @@ bool serves(const PanelEntry& entry, const preset::Preset& preset)
   return entry.engine.empty() || entry.engine == preset.settings.engine();
 }
 
-std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
+SceneFacts take_facts(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
 {
-  std::vector<std::any> seen;
+  SceneFacts facts;
   for (const PanelEntry& entry : panel_table())
-    if (entry.look_around && serves(entry, preset)) seen.push_back(entry.look_around(preset, loaded));
-  return seen;
+    if (entry.take_facts && serves(entry, preset)) entry.take_facts(preset, loaded, facts);
+  return facts;
 }
 
 void check_layout(const std::string& name)

@@ -29,7 +29,7 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
 
 } // namespace
 
-DeviceRuns::DeviceRuns(compute::DeviceOptions device, LookAround look_around) : options_(std::move(device)), look_around_(look_around)
+DeviceRuns::DeviceRuns(compute::DeviceOptions device, TakeFacts take_facts) : options_(std::move(device)), take_facts_(take_facts)
 {
   if (!options_.kernels.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
@@ -58,9 +58,9 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch)
   watch.begin("setting up the run");
   auto job = measure::measured(run::make_job(*previous_, *context_), previous_->preset, reference);
   telling.reset(); // what a job builds later is short
-  std::vector<std::any> seen;
-  if (look_around_) seen = look_around_(preset, previous_->loaded);
-  return {std::move(job), std::move(plan), std::move(reference), std::move(seen), context_->device(), previous_->preset.white};
+  SceneFacts facts;
+  if (take_facts_) facts = take_facts_(preset, previous_->loaded);
+  return {std::move(job), std::move(plan), std::move(reference), std::move(facts), context_->device(), previous_->preset.white};
 }
 
 void DeviceRuns::watch(const std::stop_token& stop)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ui/state/tasks.h"
 
+#include <algorithm>
+
 namespace nephroid::ui {
 
 TaskQueue::~TaskQueue()
