@@ -106,6 +106,16 @@ TEST_F(LayoutTest, EachEngineHasItsOwn)
   EXPECT_FALSE(seen(ParametersPanel::title)) << "a tab behind the others";
 }
 
+TEST_F(LayoutTest, TitlesOfTabsAreWhole)
+{
+  resize({1600, 1000});
+  open();
+  frames(6);
+  const ImGuiTabBar* tabs = ImGui::FindWindowByName(ErrorPanel::title)->DockNode->TabBar;
+  ASSERT_GT(tabs->Tabs.Size, 5);
+  for (const ImGuiTabItem& tab : tabs->Tabs) EXPECT_GE(tab.Width, tab.ContentWidth - 1) << tab.Window->Name;
+}
+
 TEST_F(LayoutTest, ASmallWindowHasRoomForThePictureAndEveryMenu)
 {
   resize({320, 240});

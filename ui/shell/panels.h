@@ -30,10 +30,9 @@ void check_layout(const std::string& name);
 using FrontTabs = std::vector<unsigned>;
 /// Of all panels that are seen now.
 FrontTabs panels_in_sight();
-/// Docks the picture at the left of the dock space of this id (an ImGuiID) and the other panels as tabs at its right. engine: of the
-/// preset. Inside of a frame,
+/// Docks the picture at the left of the dock space of this id (an ImGuiID) and the other panels as tabs at its right. Inside of a frame,
 /// before the panels.
-FrontTabs begin_layout(const std::string& name, const std::string& engine, unsigned dock_space, float width, float height);
+FrontTabs begin_layout(const std::string& name, const preset::Preset& preset, unsigned dock_space, float width, float height);
 /// As layout_now() had it; panels that it does not know are tabs beside the first one. Inside of a frame, before the dock space.
 FrontTabs restore_layout(const std::string& ini);
 /// In the frames after either: tabs that come up may go before those that shall be in front.

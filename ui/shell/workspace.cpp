@@ -161,7 +161,7 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
   const bool has_own = name_.empty() && kept != context.settings.engines.end() && !kept->second.ini.empty();
   if (begins && has_own) front_tabs_ = restore_layout(kept->second.ini);
   const ImGuiID id = ImGui::DockSpaceOverViewport(ImGui::GetID("panels"), ImGui::GetMainViewport());
-  if (begins && !has_own) front_tabs_ = begin_layout(name_, engine, id, size[0], size[1]);
+  if (begins && !has_own) front_tabs_ = begin_layout(name_, *context.preset(), id, size[0], size[1]);
   if (begins) {
     laid_out_for_ = engine;
     frames_laid_out_ = 0;
