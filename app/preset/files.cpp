@@ -202,7 +202,9 @@ std::vector<fs::path> files_of(const Preset& preset)
   return files;
 }
 
-std::string to_json(const Preset& preset) { return pretty(as_json(value_of(preset))); }
+Json as_json(const Preset& preset) { return as_json(value_of(preset)); }
+
+std::string to_json(const Preset& preset) { return pretty(as_json(preset)); }
 
 std::string to_json(const Preset& preset, const std::filesystem::path& folder) { return to_json(moved_to(preset, folder)); }
 

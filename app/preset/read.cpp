@@ -300,6 +300,8 @@ const SweptDocument& only(const std::vector<SweptDocument>& runs)
   return runs.front();
 }
 
+Origin origin_of(const std::string& source) { return {Place(source), true, std::filesystem::path(source).parent_path()}; }
+
 Document load(const std::string& name) { return load_document(find_preset(name, {}, "preset")); }
 
 WithSweep with_sweep(Document document, const Overrides& overrides)
@@ -333,6 +335,13 @@ Preset parse_preset(const std::string& json, const std::string& source, const Ov
   return finish(only(runs_of(parse_document(json, source), overrides)));
 }
 
+Preset read_json(Json value, const std::string& source) { return finish({Document(std::move(value), origin_of(source)), ""}); }
+
+Preset with_overrides(const Preset& preset, const Overrides& overrides)
+{
+  return finish(only(runs_of(Document(as_json(preset), origin_of(preset.source)), overrides)));
+}
+
 WithSweep read_with_sweep(const std::string& name, const Overrides& overrides) { return with_sweep(load(name), overrides); }
 
 WithSweep parse_with_sweep(const std::string& json, const std::string& source) { return with_sweep(parse_document(json, source), {}); }
@@ -344,8 +353,8 @@ Preset parse_first_run(const std::string& json, const std::string& source)
 
 std::vector<SweptRun> swept_runs(const Preset& preset, const Sweep& sweep)
 {
-  Document document = parse_document(to_json(preset), preset.source);
-  const Origin origin{Place(preset.source), true, std::filesystem::path(preset.source).parent_path()};
+  const Origin origin = origin_of(preset.source);
+  Document document(as_json(preset), origin);
   for (const SweptField& field : sweep)
     if (std::ranges::count(sweep, field.key, &SweptField::key) > 1)
       throw bad_input(Place(preset.source) / "sweep", in_quotes(field.key) + " is swept twice");

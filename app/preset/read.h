@@ -2,6 +2,7 @@
 // Presets in and out: strict reading with inheritance, overrides and sweeps; writing.
 #pragma once
 #include "base/place.h"
+#include "preset/json_text.h"
 #include "preset/preset.h"
 
 #include <filesystem>
@@ -25,8 +26,13 @@ Preset read_preset(const std::string& name, const Overrides& overrides = {});
 /// From text, for tests and the editor; source names it in messages.
 Preset parse_preset(const std::string& json, const std::string& source, const Overrides& overrides = {});
 
-/// Complete: reading it again gives an equal preset, and every field is there. Indented JSON, keys in the order of describe,
-/// without a newline at the end.
+/// Complete: reading it again gives an equal preset, and every field is there, in the order of describe.
+Json as_json(const Preset& preset);
+/// The preset of such a value, which may have been changed since. Throws as parse_preset.
+Preset read_json(Json value, const std::string& source);
+/// The preset with what overrides set. It is read again: whatever no preset may be is refused, as by parse_preset.
+Preset with_overrides(const Preset& preset, const Overrides& overrides);
+/// as_json() as indented text, without a newline at the end.
 std::string to_json(const Preset& preset);
 /// The same for a file in another folder than the preset's source: a file name that would mean another file there (or none)
 /// becomes absolute, so that preset.json beside a run's pictures can be run again.

@@ -15,13 +15,13 @@ public:
     runs.step_ms = 1;
     measured();
     open(ball_text());
-    EXPECT_TRUE(until([&] { return workbench.run().seen<ui::ViewedScene>() && workbench.run().error_history(); }));
+    EXPECT_TRUE(until([&] { return workbench.run().scene_facts().view && workbench.run().error_history(); }));
   }
 
   const preset::Preset& preset() const { return *workbench.preset(); }
   const preset::Scene& scene() const { return preset().scene; }
   const ui::ViewState& view_state() const { return workbench.view_state(); }
-  const ui::Settings& settings() const { return workbench.settings(); }
+  const ui::Settings& settings() const { return workbench.setup().settings(); }
   const ui::RunInHand& run() const { return workbench.run(); }
   const auto& comparing() const { return workbench.comparing(); }
   std::string file() const { return (folder.path() / "test.json").string(); }
@@ -47,7 +47,7 @@ public:
   void remember()
   {
     ImGui::SetClipboardText("nothing was copied");
-    before = {preset(), workbench.view_state(), workbench.settings(), workbench.run().status().generation};
+    before = {preset(), workbench.view_state(), workbench.setup().settings(), workbench.run().status().generation};
   }
   struct Before {
     preset::Preset preset;

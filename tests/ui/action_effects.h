@@ -28,7 +28,7 @@ inline const auto select_lamp = applies(command::Select{lamp}), pin = applies(co
 
 inline auto asks(Question question)
 {
-  return [question](Desk& d) { return d.workbench.question() == question; };
+  return [question](Desk& d) { return d.workbench.questions().question() == question; };
 }
 /// A new scene of an engine, in no file.
 inline auto begins(const char* engine)
@@ -49,7 +49,8 @@ inline void add_file_and_edit(Effects& all)
   all["Open history..."] = {{}, asks(Question::open_history)};
   all["Open pictures..."] = {{}, asks(Question::open_pictures)};
   all["Open map..."] = {{}, asks(Question::open_map)};
-  all["Reopen the last session"] = {[](Desk& d) { d.workbench.offer_earlier(true); }, [](Desk& d) { return d.workbench.take_reopen(); }};
+  all["Reopen the last session"] = {[](Desk& d) { d.workbench.offer_earlier(true); },
+                                    [](Desk& d) { return d.workbench.questions().take_reopen(); }};
   all["Save preset"] = {
       [](Desk& d) { d.edit(2.5); },
       [](Desk& d) { return preset::read_preset(d.file()).scene.camera.position[2] == 2.5 && !d.workbench.edits()->modified(); }};
@@ -62,7 +63,7 @@ inline void add_file_and_edit(Effects& all)
                                           [](Desk& d) { return d.preset().white == 7; }};
   all["Save preset as..."] = {{}, asks(Question::save_preset)};
   all["Save picture as..."] = {{}, asks(Question::save_picture)};
-  all["Quit"] = {{}, [](Desk& d) { return d.workbench.quitting(); }};
+  all["Quit"] = {{}, [](Desk& d) { return d.workbench.questions().quitting(); }};
 
   all["Undo"] = {[](Desk& d) { d.edit(); }, [](Desk& d) { return d.scene().camera.position[2] == 4; }};
   all["Redo"] = {[](Desk& d) { d.edit(), d.apply(command::Undo{}); }, [](Desk& d) { return d.scene().camera.position[2] == 3; }};
@@ -253,7 +254,7 @@ inline void add_window_and_help(Effects& all)
   all["Text as the display has it"] = {applies(command::SetAppearance{Theme::dark, 1.3}),
                                        [](Desk& d) { return d.settings().text_size == 1; }};
   all["Commands..."] = {{}, asks(Question::command)};
-  all["Mouse and keys"] = {{}, [](Desk& d) { return d.workbench.help_shown(); }};
+  all["Mouse and keys"] = {{}, [](Desk& d) { return d.workbench.setup().help_shown(); }};
 }
 
 } // namespace effects

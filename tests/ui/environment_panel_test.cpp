@@ -101,7 +101,7 @@ TEST_F(EnvironmentPanelTest, WithoutAnEnvironmentItSaysSo)
   EXPECT_TRUE(workbench.messages().empty());
   EXPECT_EQ(panel().model().maps_read(), 0);
   click_in(panel(), "open map");
-  EXPECT_EQ(workbench.question(), Question::open_map);
+  EXPECT_EQ(workbench.questions().question(), Question::open_map);
 }
 
 TEST_F(EnvironmentPanelTest, OnlyPicturesOfABakeAreSaidToBeOfOne)

@@ -89,7 +89,7 @@ TEST_F(FileListTest, AClickPicksAndADoubleClickOpens)
   ask_for_history();
   click_on("B.csv");
   EXPECT_EQ(files().picked(), folder.path() / "B.csv");
-  EXPECT_EQ(workbench.question(), Question::open_history) << "one click only names it";
+  EXPECT_EQ(workbench.questions().question(), Question::open_history) << "one click only names it";
   click_on("B.csv");
   ASSERT_TRUE(until([&] { return !workbench.messages().empty(); })) << "it is read, and is no history";
   EXPECT_THAT(workbench.messages()[0].line, HasSubstr("B.csv"));
@@ -150,7 +150,7 @@ TEST_F(FileListTest, ATypedNameIsOpened)
   type((folder.path() / "other.json").string());
   press(ImGuiKey_Enter);
   EXPECT_EQ(workbench.preset()->name, "Other");
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
 }
 
 // A click on a file that is there only names it. The button then says "Replace", and the file is as it was until that is pressed.
@@ -162,11 +162,11 @@ TEST_F(FileListTest, AFileIsReplacedByTheButtonOnly)
   EXPECT_EQ(files().picked(), folder.path() / "kept.json");
   click_on("kept.json");
   frames(3);
-  EXPECT_EQ(workbench.question(), Question::save_preset) << "nor does a double click replace it";
+  EXPECT_EQ(workbench.questions().question(), Question::save_preset) << "nor does a double click replace it";
   EXPECT_EQ(read_file(folder.path() / "kept.json"), R"({"name": "Kept"})");
   click(workspace.dialogs().place_of("save").value());
   frames(3);
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_EQ(preset::read_preset((folder.path() / "kept.json").string()).name, "Test");
 }
 
@@ -176,10 +176,10 @@ TEST_F(FileListTest, EnterReplacesAFileTheSecondTimeOnly)
   ask(Question::save_preset);
   type(kept.string());
   press(ImGuiKey_Enter);
-  EXPECT_EQ(workbench.question(), Question::save_preset) << "it asks once more";
+  EXPECT_EQ(workbench.questions().question(), Question::save_preset) << "it asks once more";
   EXPECT_EQ(read_file(kept), R"({"name": "Kept"})");
   press(ImGuiKey_Enter);
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_EQ(preset::read_preset(kept.string()).name, "Test");
 }
 
@@ -189,9 +189,9 @@ TEST_F(FileListTest, AMapIsChosenAmongMapsAndBecomesTheEnvironment)
   ask(Question::open_map);
   EXPECT_THAT(names(), ElementsAre("hall.hdr", "sky.EXR"));
   click_on("hall.hdr");
-  EXPECT_EQ(workbench.question(), Question::open_map) << "one click only names it";
+  EXPECT_EQ(workbench.questions().question(), Question::open_map) << "one click only names it";
   click_on("hall.hdr");
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   ASSERT_TRUE(workbench.preset()->scene.environment);
   EXPECT_EQ(fs::path(workbench.preset()->scene.environment->file).filename(), "hall.hdr");
 }
@@ -203,7 +203,7 @@ TEST_F(FileListTest, WhatIsTypedAndIsNoMapLeavesTheDialogOpen)
     retype(name);
     press(ImGuiKey_Enter);
     EXPECT_THAT(last_message(workbench), HasSubstr(name));
-    EXPECT_EQ(workbench.question(), Question::open_map);
+    EXPECT_EQ(workbench.questions().question(), Question::open_map);
     press(ImGuiKey_Escape);
   }
   EXPECT_FALSE(workbench.preset()->scene.environment);
@@ -218,14 +218,14 @@ protected:
     edit([](preset::Preset& p) { p.scene.camera.position[2] = 2; });
     workbench.apply({command::Quit{}});
     frames(4);
-    ASSERT_EQ(workbench.question(), Question::unsaved);
+    ASSERT_EQ(workbench.questions().question(), Question::unsaved);
   }
   /// The window is as it was.
   void expect_nothing_happened()
   {
-    EXPECT_EQ(workbench.question(), Question::none);
-    EXPECT_EQ(workbench.waiting(), nullptr);
-    EXPECT_FALSE(workbench.quitting());
+    EXPECT_EQ(workbench.questions().question(), Question::none);
+    EXPECT_EQ(workbench.questions().waiting(), nullptr);
+    EXPECT_FALSE(workbench.questions().quitting());
     EXPECT_TRUE(workbench.edits()->modified());
     EXPECT_NE(workbench.run().status().state, job::State::cancelled) << "Escape is the dialog's, not the run's";
   }

@@ -12,9 +12,9 @@ protected:
   using test::WindowFixture::WindowFixtureOf;
   void set_ini(const std::string& ini)
   {
-    Settings settings = workbench.settings();
+    Settings settings = workbench.setup().settings();
     settings.engines["spectral"].ini = ini;
-    workbench.set_settings(settings);
+    workbench.setup().set_settings(settings);
   }
   void open_palette()
   {
@@ -72,20 +72,20 @@ TEST_F(LayoutTest, WhatTheMouseMakesOfItIsKeptForThatEngine)
 {
   open();
   frames(5);
-  ASSERT_FALSE(workbench.settings().engines.contains("spectral")) << "nobody touched it";
+  ASSERT_FALSE(workbench.setup().settings().engines.contains("spectral")) << "nobody touched it";
   const ImGuiWindow* view = ImGui::FindWindowByName(ViewPanel::title);
   const float before = view->Size.x;
   const Point edge{static_cast<double>(view->Pos.x + view->Size.x) + 1, static_cast<double>(view->Pos.y + view->Size.y) / 2};
   drag_between(edge, {edge[0] - 150, edge[1]});
   frames(3);
   EXPECT_NEAR(ImGui::FindWindowByName(ViewPanel::title)->Size.x, before - 150, 8);
-  ASSERT_TRUE(workbench.settings().engines.contains("spectral"));
+  ASSERT_TRUE(workbench.setup().settings().engines.contains("spectral"));
   leave_and_come_back();
   EXPECT_NEAR(ImGui::FindWindowByName(ViewPanel::title)->Size.x, before - 150, 8);
   workbench.apply({command::ResetLayout{}});
   frames(5);
   EXPECT_NEAR(ImGui::FindWindowByName(ViewPanel::title)->Size.x, before, 2);
-  EXPECT_EQ(workbench.settings().engines.at("spectral"), EngineLayout{});
+  EXPECT_EQ(workbench.setup().settings().engines.at("spectral"), EngineLayout{});
 }
 
 TEST_F(LayoutTest, EachEngineHasItsOwn)
@@ -104,6 +104,16 @@ TEST_F(LayoutTest, EachEngineHasItsOwn)
   frames(6);
   EXPECT_TRUE(seen(ErrorPanel::title));
   EXPECT_FALSE(seen(ParametersPanel::title)) << "a tab behind the others";
+}
+
+TEST_F(LayoutTest, TitlesOfTabsAreWhole)
+{
+  resize({1600, 1000});
+  open();
+  frames(6);
+  const ImGuiTabBar* tabs = ImGui::FindWindowByName(ErrorPanel::title)->DockNode->TabBar;
+  ASSERT_GT(tabs->Tabs.Size, 5);
+  for (const ImGuiTabItem& tab : tabs->Tabs) EXPECT_GE(tab.Width, tab.ContentWidth - 1) << tab.Window->Name;
 }
 
 TEST_F(LayoutTest, ASmallWindowHasRoomForThePictureAndEveryMenu)
@@ -213,9 +223,9 @@ TEST_F(LayoutTest, EveryPanelIsClosedAndShownByItsAction)
 TEST_F(LayoutTest, AnImpossibleSizeOfTextStaysAtTheEnd)
 {
   workbench.apply({command::SetAppearance{Theme::light, 1e9}});
-  EXPECT_EQ(workbench.settings().text_size, Settings::largest_text);
+  EXPECT_EQ(workbench.setup().settings().text_size, Settings::largest_text);
   workbench.apply({command::SetAppearance{Theme::dark, -1}});
-  EXPECT_EQ(workbench.settings().text_size, Settings::smallest_text);
+  EXPECT_EQ(workbench.setup().settings().text_size, Settings::smallest_text);
 }
 
 TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
@@ -227,7 +237,7 @@ TEST_F(LayoutTest, ThePaletteRunsWhatIsTyped)
   EXPECT_EQ(workspace.palette().matches().front()->name, "Brighter");
   press(ImGuiKey_Enter);
   EXPECT_EQ(workbench.view_state().view_settings.exposure_stops, 0.5);
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
 }
 
 TEST_F(LayoutTest, TheArrowsChooseInThePalette)
@@ -241,8 +251,8 @@ TEST_F(LayoutTest, TheArrowsChooseInThePalette)
   press(ImGuiKey_UpArrow);
   press(ImGuiKey_DownArrow);
   press(ImGuiKey_Enter);
-  EXPECT_EQ(workbench.question(), Question::none);
-  EXPECT_EQ(workbench.settings().text_size, second == "Larger text" ? 1.1 : 1 / 1.1) << second;
+  EXPECT_EQ(workbench.questions().question(), Question::none);
+  EXPECT_EQ(workbench.setup().settings().text_size, second == "Larger text" ? 1.1 : 1 / 1.1) << second;
 }
 
 TEST_F(LayoutTest, ThePaletteSaysWhyNot)
@@ -258,7 +268,7 @@ TEST_F(LayoutTest, EscapeClosesThePaletteAndNotTheRun)
   runs.steps = 100000;
   open_palette();
   press(ImGuiKey_Escape);
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_EQ(workbench.run().status().state, job::State::running);
 }
 

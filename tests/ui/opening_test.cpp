@@ -28,36 +28,36 @@ TEST_F(OpeningTest, WithoutChangesNothingIsAsked)
 {
   ASSERT_TRUE(workbench.open(first));
   workbench.apply({command::Open{second}});
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_EQ(workbench.preset()->name, "Second");
   workbench.apply({command::Quit{}});
-  EXPECT_TRUE(workbench.quitting());
+  EXPECT_TRUE(workbench.questions().quitting());
 }
 
 TEST_F(OpeningTest, QuittingAsksBeforeChangesGo)
 {
   open_and_edit();
   workbench.apply({command::Quit{}});
-  EXPECT_FALSE(workbench.quitting());
-  EXPECT_EQ(workbench.question(), Question::unsaved);
-  ASSERT_NE(workbench.waiting(), nullptr);
-  workbench.apply({*workbench.waiting()});
-  EXPECT_TRUE(workbench.quitting());
+  EXPECT_FALSE(workbench.questions().quitting());
+  EXPECT_EQ(workbench.questions().question(), Question::unsaved);
+  ASSERT_NE(workbench.questions().waiting(), nullptr);
+  workbench.apply({*workbench.questions().waiting()});
+  EXPECT_TRUE(workbench.questions().quitting());
 }
 
 TEST_F(OpeningTest, AnotherPresetAsksBeforeChangesGo)
 {
   open_and_edit();
   workbench.apply({command::Open{second}});
-  EXPECT_EQ(workbench.question(), Question::unsaved);
+  EXPECT_EQ(workbench.questions().question(), Question::unsaved);
   EXPECT_EQ(workbench.preset()->name, "Test") << "still there";
   workbench.apply({command::Ask{Question::none}});
-  EXPECT_EQ(workbench.waiting(), nullptr);
+  EXPECT_EQ(workbench.questions().waiting(), nullptr);
   EXPECT_EQ(workbench.preset()->scene.camera.position[2], 2);
   workbench.apply({command::Open{second}});
-  workbench.apply({*workbench.waiting()});
+  workbench.apply({*workbench.questions().waiting()});
   EXPECT_EQ(workbench.preset()->name, "Second");
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_EQ(preset::read_preset(first).scene.camera.position[2], 4) << "not saved";
 }
 
@@ -66,7 +66,7 @@ TEST_F(OpeningTest, OnceTheChangesAreSavedWhatWaitedGoesOn)
   open_and_edit();
   workbench.apply({command::Open{second}});
   workbench.apply({command::SavePreset{folder.path() / "missing" / "first.json"}});
-  EXPECT_EQ(workbench.question(), Question::unsaved) << "saving failed: the question stays";
+  EXPECT_EQ(workbench.questions().question(), Question::unsaved) << "saving failed: the question stays";
   EXPECT_TRUE(workbench.edits()->modified());
   ASSERT_FALSE(workbench.messages().empty());
   EXPECT_TRUE(workbench.messages().back().error);
@@ -74,7 +74,7 @@ TEST_F(OpeningTest, OnceTheChangesAreSavedWhatWaitedGoesOn)
   workbench.apply({command::SavePreset{folder.path() / "third.json"}});
   EXPECT_EQ(workbench.preset()->name, "Second");
   EXPECT_EQ(preset::read_preset((folder.path() / "third.json").string()).scene.camera.position[2], 2);
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
 }
 
 TEST_F(OpeningTest, WhatCannotBeOpenedAsksNothing)
@@ -82,7 +82,7 @@ TEST_F(OpeningTest, WhatCannotBeOpenedAsksNothing)
   open_and_edit();
   workbench.apply({command::Open{folder.write("broken.json", "{")}, command::Open{folder.write("ball.obj", "v 0 0 0\n")}});
   EXPECT_TRUE(until([&] { return workbench.messages().size() == 2; })) << "a mesh is read in the background";
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_TRUE(workbench.edits()->modified());
 }
 
@@ -99,7 +99,7 @@ TEST_F(OpeningTest, TheDialogSavesAndOpens)
   window.frames(3);
   EXPECT_EQ(window.workbench.preset()->name, "Second");
   EXPECT_EQ(preset::read_preset(first).scene.camera.position[2], 2) << "saved";
-  EXPECT_EQ(window.workbench.question(), Question::none);
+  EXPECT_EQ(window.workbench.questions().question(), Question::none);
 }
 
 TEST_F(OpeningTest, AMapBecomesTheEnvironment)
@@ -111,7 +111,7 @@ TEST_F(OpeningTest, AMapBecomesTheEnvironment)
   workbench.apply({command::Open{map}});
   ASSERT_TRUE(workbench.preset()->scene.environment);
   EXPECT_EQ(workbench.preset()->scene.environment->file, map);
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_EQ(workbench.edits()->undo_label(), "surround with hall.hdr");
   edit([&](preset::Preset& p) { p.scene.environment = {.file = map, .radiance = 3, .rotate_deg = 40, .lights = true}; });
   workbench.apply({command::Open{other}});

@@ -156,9 +156,9 @@ TEST_F(PanelsTest, EscapeClosesTheHelpFirst)
   runs.steps = 100000;
   open();
   press(ImGuiKey_F1);
-  EXPECT_TRUE(workbench.help_shown());
+  EXPECT_TRUE(workbench.setup().help_shown());
   press(ImGuiKey_Escape);
-  EXPECT_FALSE(workbench.help_shown());
+  EXPECT_FALSE(workbench.setup().help_shown());
   for (int i = 0; i < 20; ++i) { // the worker would take a while to be cancelled
     frame();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -247,13 +247,13 @@ TEST_F(PanelsTest, KeysBelongToADialogWhileItIsOpen)
   runs.steps = 100000;
   open();
   press(ImGuiKey_S, ImGuiMod_Ctrl);
-  EXPECT_EQ(workbench.question(), Question::none) << "the preset has a file of its own";
+  EXPECT_EQ(workbench.questions().question(), Question::none) << "the preset has a file of its own";
   EXPECT_THAT(only_message(workbench), StartsWith("saved "));
   apply({command::Ask{Question::save_picture}});
   press(ImGuiKey_E);
   EXPECT_EQ(workbench.view_state().view_settings.exposure_stops, 0);
   press(ImGuiKey_Escape);
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_NE(workbench.run().status().state, job::State::cancelled);
 }
 

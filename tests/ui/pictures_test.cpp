@@ -346,7 +346,7 @@ TEST_F(PicturesTest, AreDroppedOnTheListAndPickedInTheDialog)
   for (int twice = 0; twice < 2; ++twice) press_at(*entry), let_go();
   ASSERT_TRUE(until([&] { return pins().size() == 3; }));
   EXPECT_EQ(pins()[2].name, "b.png (2)");
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
 }
 
 TEST_F(PicturesTest, AreOpenedAgainWithTheSession)

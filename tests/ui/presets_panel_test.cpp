@@ -116,7 +116,7 @@ TEST_F(PresetsPanelTest, UnsavedChangesAreAskedAbout)
   edit([&](preset::Preset& p) { p.white = 3; });
   click("environment/ball");
   click("open");
-  EXPECT_EQ(workbench.question(), Question::unsaved);
+  EXPECT_EQ(workbench.questions().question(), Question::unsaved);
   EXPECT_EQ(workbench.preset()->name, "Test");
 }
 
@@ -263,10 +263,10 @@ TEST(StartPageCards, OpenTheirExamples)
 TEST_F(StartPageTest, EachButtonDoesWhatItSays)
 {
   click("Open...");
-  EXPECT_EQ(workbench.question(), Question::open);
+  EXPECT_EQ(workbench.questions().question(), Question::open);
   apply({command::Ask{Question::none}});
   click("Commands...");
-  EXPECT_EQ(workbench.question(), Question::command);
+  EXPECT_EQ(workbench.questions().question(), Question::command);
   apply({command::Ask{Question::none}});
   click("New scene");
   ASSERT_TRUE(workbench.preset());
@@ -278,11 +278,11 @@ TEST_F(StartPageTest, EachButtonDoesWhatItSays)
 TEST_F(StartPageTest, AnEarlierSessionIsOfferedWhereThereIsOne)
 {
   click("Reopen the last session");
-  EXPECT_FALSE(workbench.take_reopen()) << "there is none, and the button is grey";
+  EXPECT_FALSE(workbench.questions().take_reopen()) << "there is none, and the button is grey";
   workbench.offer_earlier(true);
   frames(2);
   click("Reopen the last session");
-  EXPECT_TRUE(workbench.take_reopen());
+  EXPECT_TRUE(workbench.questions().take_reopen());
 }
 
 TEST_F(StartPageTest, TypingFindsAPresetWithoutAMouse)
@@ -300,7 +300,7 @@ TEST_F(StartPageTest, ItsSearchLeavesKeysWithCtrlToTheirActions)
   frames(3);
   ASSERT_TRUE(ImGui::GetIO().WantTextInput);
   press(ImGuiKey_O, ImGuiMod_Ctrl);
-  EXPECT_EQ(workbench.question(), Question::open);
+  EXPECT_EQ(workbench.questions().question(), Question::open);
   press(ImGuiKey_Escape);
   frames(3);
   press(ImGuiKey_N, ImGuiMod_Ctrl);

@@ -94,7 +94,7 @@ protected:
     for (int i = 0; i < 200; ++i) {
       some_event();
       frame();
-      if (workbench.question() != Question::none && random_() % 20 == 0) workbench.apply({command::Ask{Question::none}});
+      if (workbench.questions().question() != Question::none && random_() % 20 == 0) workbench.apply({command::Ask{Question::none}});
     }
   }
 

@@ -155,11 +155,11 @@ TEST_F(RunsPanelTest, ADialogAsksForTheReportsName)
 {
   run_measured();
   click_on("report");
-  ASSERT_EQ(workbench.question(), Question::save_report);
+  ASSERT_EQ(workbench.questions().question(), Question::save_report);
   frames(3);
   retype(folder.path() / "asked.html");
   press(ImGuiKey_Enter);
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_TRUE(until([&] { return is_there(folder.path() / "asked.html"); }));
 }
 

@@ -130,11 +130,11 @@ TEST_F(SavingTest, NewScenesAreInNoFileAndAskBeforeChangesGo)
   EXPECT_TRUE(save_target(workbench.preset()).empty());
   set_white(2);
   press(ImGuiKey_N, ImGuiMod_Ctrl);
-  EXPECT_EQ(workbench.question(), Question::unsaved);
+  EXPECT_EQ(workbench.questions().question(), Question::unsaved);
   EXPECT_EQ(workbench.preset()->white, 2);
   frames(2);
-  workbench.apply({*workbench.waiting()});
-  EXPECT_EQ(workbench.question(), Question::none);
+  workbench.apply({*workbench.questions().waiting()});
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   EXPECT_NE(workbench.preset()->white, 2);
   for (const engine::Engine* engine : engine::engines()) {
     workbench.apply({command::New{engine->introduction.new_scene.preset, true}});

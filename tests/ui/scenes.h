@@ -102,7 +102,7 @@ inline std::shared_ptr<const run::LoadedScene> loaded_scene(const preset::Preset
 
 inline std::shared_ptr<const ui::ViewedScene> seen_scene(const preset::Preset& preset)
 {
-  return std::any_cast<std::shared_ptr<const ui::ViewedScene>>(ui::ViewedScene::look(preset, loaded_scene(preset)));
+  return ui::take_facts(preset, loaded_scene(preset)).view;
 }
 
 /// Fake jobs, but what there is to see in the scene is looked at as the program does.
@@ -111,7 +111,7 @@ public:
   ui::NewRun make(const preset::Preset& preset, const Watch& watch) override
   {
     ui::NewRun run = FakeRuns::make(preset, watch);
-    run.seen = ui::look_around(preset, loaded_scene(preset));
+    run.scene_facts = ui::take_facts(preset, loaded_scene(preset));
     return run;
   }
 };

@@ -20,7 +20,7 @@ protected:
   void open(const std::string& text = test::ball_text())
   {
     WindowFixtureOf::open(text);
-    ASSERT_TRUE(until([&] { return workbench.run().seen<ViewedScene>() != nullptr; }));
+    ASSERT_TRUE(until([&] { return workbench.run().scene_facts().view != nullptr; }));
   }
   const preset::Scene& scene() const { return workbench.preset()->scene; }
   Pinhole pinhole() const

@@ -165,7 +165,7 @@ TEST_F(SessionTest, AClosedWindowIsOfferedButNotOpened)
   EXPECT_TRUE(window.keeper.killed_session().empty());
   EXPECT_TRUE(window.keeper.has_earlier());
   window.workbench.apply({command::ReopenSession{}});
-  ASSERT_TRUE(window.workbench.take_reopen());
+  ASSERT_TRUE(window.workbench.questions().take_reopen());
   window.keeper.reopen(window.workbench);
   EXPECT_NE(window.workbench.preset(), nullptr);
   EXPECT_FALSE(window.keeper.has_earlier());
@@ -285,10 +285,10 @@ TEST_F(SessionTest, SettingsAreThoseOfTheLastWindow)
   }
   Window window(state());
   window.keeper.load_settings(window.workbench);
-  EXPECT_EQ(window.workbench.settings().theme, Theme::light);
-  EXPECT_EQ(window.workbench.settings().text_size, 1.21);
-  EXPECT_EQ(window.workbench.settings().engines.at("spectral").closed, std::set<std::string>{"plan"});
-  EXPECT_EQ(window.workbench.settings().engines.at("inverse").ini, "[Window][Plan]\nPos=1,2\n");
+  EXPECT_EQ(window.workbench.setup().settings().theme, Theme::light);
+  EXPECT_EQ(window.workbench.setup().settings().text_size, 1.21);
+  EXPECT_EQ(window.workbench.setup().settings().engines.at("spectral").closed, std::set<std::string>{"plan"});
+  EXPECT_EQ(window.workbench.setup().settings().engines.at("inverse").ini, "[Window][Plan]\nPos=1,2\n");
 }
 
 TEST(Settings, WhatCannotBeIsRefused)

@@ -66,7 +66,7 @@ TEST(LightEdits, ATableKeepsTwoRowsAndLinesOne)
 std::shared_ptr<const SeenByGlass> seen_of(const preset::Preset& preset)
 {
   const scene::Scene scene = scene::load_scene(preset);
-  return std::any_cast<std::shared_ptr<const SeenByGlass>>(SeenByGlass::look(preset, scene, scene::build_bvh(scene.geometry)));
+  return SeenByGlass::of(preset, scene, scene::build_bvh(scene.geometry));
 }
 
 TEST(SpectraMaker, MakesAnewWhatChangedOnly)

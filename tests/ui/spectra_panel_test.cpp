@@ -23,7 +23,7 @@ protected:
   {
     runs.steps = 100000;
     open(room_text(spectrum, effort));
-    ASSERT_TRUE(until([&] { return workbench.run().seen<ui::SeenByGlass>() != nullptr; }));
+    ASSERT_TRUE(until([&] { return workbench.run().scene_facts().spectra != nullptr; }));
     frames(2);
   }
   const SpectraPanel& panel() const { return workspace.panel<ui::SpectraPanel>(); }

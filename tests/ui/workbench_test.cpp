@@ -247,11 +247,11 @@ TEST_F(WorkbenchTest, WhatWaitsForAnAnswerGoesWithItsQuestion)
   open();
   edit_z(2);
   workbench.apply({command::Quit{}});
-  ASSERT_EQ(workbench.question(), Question::unsaved);
+  ASSERT_EQ(workbench.questions().question(), Question::unsaved);
   workbench.apply({command::PinFile{folder.path() / "dropped.csv"}});
-  EXPECT_EQ(workbench.question(), Question::none);
+  EXPECT_EQ(workbench.questions().question(), Question::none);
   workbench.apply({command::SavePreset{folder.path() / "other.json"}});
-  EXPECT_FALSE(workbench.quitting()) << "nobody answered that the window may close";
+  EXPECT_FALSE(workbench.questions().quitting()) << "nobody answered that the window may close";
 }
 
 } // namespace nephroid::ui::workbench_test

@@ -56,7 +56,7 @@ Action handles_action(const char* name, ImGuiKey key, const char* help, bool Han
 std::optional<preset::Camera> camera_at_selected(C c)
 {
   if (!has_selection(c)) return std::nullopt;
-  return looking_at(*c.preset(), c.selection(), c.run.seen<ViewedScene>().get());
+  return looking_at(*c.preset(), c.selection(), c.run.scene_facts().view.get());
 }
 bool can_look_at(C c) { return camera_at_selected(c).has_value(); }
 std::string why_not_look_at(C c) { return has_selection(c) ? "the camera cannot look there" : nothing_selected(c); }
@@ -71,7 +71,7 @@ void look_at(C c)
 void nudge(C c, Nudge direction)
 {
   const Selection selection = c.selection();
-  auto edited = nudged(*c.preset(), selection, c.view_state.handles, c.run.seen<ViewedScene>().get(), direction);
+  auto edited = nudged(*c.preset(), selection, c.view_state.handles, c.run.scene_facts().view.get(), direction);
   if (!edited || edited->scene == c.preset()->scene) return;
   const double now = ImGui::GetTime();
   command::Nudged newest = c.view_state.nudged;

@@ -6,6 +6,8 @@
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
 
+#include <map>
+
 namespace nephroid::ui {
 
 struct PlottedRun {

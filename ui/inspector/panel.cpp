@@ -211,8 +211,7 @@ void InspectorPanel::offer_spectra(const Context& context, const job::PixelSpect
   draw_wrapped(colour::quiet_text, "No spectrum: " + none.why_not + ".");
   if (none.remedy.empty() || !context.preset()) return;
   if (places_.button("Keep spectra", "keep spectra", "Sets " + none.remedy + ", which starts the run again; one edit to undo"))
-    context.push(
-        command::Edit{"keep spectra", preset::parse_preset(preset::to_json(*context.preset()), context.preset()->source, {none.remedy})});
+    context.push(command::Edit{"keep spectra", preset::with_overrides(*context.preset(), {none.remedy})});
 }
 
 void InspectorPanel::draw_region(const Context& context)

@@ -3,13 +3,14 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/json_output.h"
 #include "base/place.h"
 #include "preset/read.h"
 #include "scene/materials.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 namespace nephroid::ui {
 namespace {
@@ -66,16 +67,16 @@ void Draft::follow(const preset::Preset& preset)
   std::erase_if(waiting_, [&](const auto& edit) { return !base_.contains(Pointer(parent_of(edit.first))); });
   value_ = with(waiting_);
   problems_.clear();
-  preset::Preset unused;
   for (const auto& [pointer, value] : waiting_)
-    if (auto problem = problem_of({{pointer, value}}, pointer, unused)) problems_[pointer] = *std::move(problem);
+    if (auto result = read({{pointer, value}}, pointer); auto* problem = std::get_if<Problem>(&result))
+      problems_[pointer] = std::move(*problem);
 }
 
 void Draft::take(preset::Preset preset)
 {
   preset_ = std::move(preset);
   preset_.provenance = {};
-  base_ = Json::parse(preset::to_json(preset_));
+  base_ = preset::as_json(preset_);
 }
 
 Json Draft::with(const Edits& edits) const
@@ -85,40 +86,42 @@ Json Draft::with(const Edits& edits) const
   return edited;
 }
 
-std::optional<Problem> Draft::problem_of(const Edits& edits, const std::string& pointer, preset::Preset& edited) const
+/// The preset with these edits, or why the one at `pointer` waits.
+std::variant<preset::Preset, Problem> Draft::read(const Edits& edits, const std::string& pointer) const
 {
   try {
-    const Json value = with(edits);
-    edited = preset::parse_preset(json_text(value), preset_.source);
+    preset::Preset edited = preset::read_json(with(edits), preset_.source);
     check_loads(preset_, edited);
+    return edited;
   } catch (const Error& error) {
     const Place& place = error.place();
     const bool known = place.name == preset_.source && place.pointer;
     return Problem{pointer, known ? *place.pointer : pointer, known ? error.text() : error.line()};
   }
-  return std::nullopt;
 }
 
-/// reach 0: that edit alone; 1: with those beside it, which may say one thing together (a mesh in place of a shape); 2: all of them.
-Draft::Edits Draft::together(const std::string& pointer, int reach) const
+/// A mesh in place of a shape is an edit with a sibling.
+Draft::Edits Draft::together(const std::string& pointer, Reach reach) const
 {
   Edits edits;
   for (const auto& [p, value] : waiting_)
-    if (p == pointer || reach == 2 || (reach == 1 && parent_of(p) == parent_of(pointer))) edits[p] = value;
+    if (p == pointer || reach == Reach::all || (reach == Reach::siblings && parent_of(p) == parent_of(pointer))) edits[p] = value;
   return edits;
 }
 
 std::optional<preset::Preset> Draft::settle(const std::string& pointer)
 {
   problems_.erase(pointer);
-  preset::Preset edited;
-  for (const int reach : {0, 1, 2}) {
+  std::size_t tried = 0;
+  for (const Reach reach : {Reach::alone, Reach::siblings, Reach::all}) {
     const Edits edits = together(pointer, reach);
-    if (auto problem = problem_of(edits, pointer, edited)) {
-      problems_.insert_or_assign(pointer, *std::move(problem)); // of the most edits together: they say one thing
+    if (edits.size() == std::exchange(tried, edits.size())) continue; // the same edits
+    auto result = read(edits, pointer);
+    if (auto* problem = std::get_if<Problem>(&result)) {
+      problems_.insert_or_assign(pointer, std::move(*problem)); // of the most edits together: they say one thing
       continue;
     }
-    take(std::move(edited));
+    take(std::get<preset::Preset>(std::move(result)));
     for (const auto& [settled, value] : edits) {
       waiting_.erase(settled);
       problems_.erase(settled);

@@ -7,6 +7,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
 namespace nephroid::ui {
 
 using preset::Json;
@@ -29,8 +35,8 @@ public:
   /// By the pointer of their edits.
   const std::map<std::string, Problem>& problems() const { return problems_; }
 
-  /// Puts a value at a JSON pointer of the draft. Returns the preset that comes of it: with this edit and those that were waiting for it.
-  /// Nothing where it has to wait itself.
+  /// Puts a value at a JSON pointer of the draft. Returns the preset that the reader made of it: with this edit and those that were waiting
+  /// for it. Nothing where it has to wait itself.
   std::optional<preset::Preset> edit(const std::string& pointer, Json value);
   /// Why that edit would wait; changes nothing.
   std::optional<Problem> trial(const std::string& pointer, const Json& value) const;
@@ -39,11 +45,12 @@ public:
 
 private:
   using Edits = std::map<std::string, Json>; ///< values by their pointers, none inside of another
+  enum class Reach { alone, siblings, all }; ///< of the edits that wait: which may say one thing together
   void take(preset::Preset preset);
   Json with(const Edits& edits) const;
-  Edits together(const std::string& pointer, int reach) const;
+  Edits together(const std::string& pointer, Reach reach) const;
   std::optional<preset::Preset> settle(const std::string& pointer);
-  std::optional<Problem> problem_of(const Edits& edits, const std::string& pointer, preset::Preset& edited) const;
+  std::variant<preset::Preset, Problem> read(const Edits& edits, const std::string& pointer) const;
 
   preset::Preset preset_; ///< as it is outside
   Json base_, value_;     ///< that as JSON; with the edits that wait

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What has any number of items: lists and maps of objects, tables, lists of numbers and of texts.
 #include "base/counted.h"
-#include "ui/parameters/panel.h"
+#include "ui/parameters/rows.h"
 #include "ui/widgets/theme.h"
 
 #include <fmt/format.h>
@@ -58,8 +58,7 @@ Json copy_of(const Json& items, Json item)
 
 } // namespace
 
-/// In the row of a list: how many it has, and one more.
-void ParametersPanel::draw_add(const Outline& o, const Json& value, const std::string& pointer)
+void ItemRows::draw_add(const Outline& o, const Json& value, const std::string& pointer)
 {
   ImGui::BeginDisabled(value.size() >= o.field.count.high);
   if (ImGui::Button(("Add##" + pointer).c_str())) {
@@ -69,26 +68,26 @@ void ParametersPanel::draw_add(const Outline& o, const Json& value, const std::s
       more[key = untaken_name("new", [&](const std::string& n) { return value.contains(n); })] = o.fresh();
     else
       more.push_back(o.kind == Kind::list ? o.fresh() : next_row(o, value));
-    ask("add to " + dotted(pointer), pointer, std::move(more));
-    reveal_ = child_of(pointer, key);
+    form_.ask("add to " + dotted(pointer), pointer, std::move(more));
+    form_.reveal = child_of(pointer, key);
   }
   ImGui::EndDisabled();
-  note(pointer + ":add");
+  form_.note(pointer + ":add");
   ImGui::SameLine();
   if (o.kind == Kind::table) {
     if (ImGui::Button(("Sort##" + pointer).c_str())) {
       Json sorted = value;
       std::stable_sort(sorted.begin(), sorted.end(), [](const Json& a, const Json& b) { return a.at(0) < b.at(0); });
-      ask("sort " + dotted(pointer), pointer, std::move(sorted));
+      form_.ask("sort " + dotted(pointer), pointer, std::move(sorted));
     }
-    note(pointer + ":sort");
+    form_.note(pointer + ":sort");
     ImGui::SameLine();
   }
   ImGui::TextDisabled("%s", counted(value.size(), o.kind == Kind::table ? "row" : "item").c_str());
 }
 
 /// Behind what an item of a list or a map has in its row: duplicate, move, remove.
-void ParametersPanel::draw_item_buttons(const Json& items, const std::string& key, const std::string& pointer)
+void ItemRows::draw_item_buttons(const Json& items, const std::string& key, const std::string& pointer)
 {
   const std::string at = child_of(pointer, key);
   const bool is_list = items.is_array();
@@ -98,9 +97,9 @@ void ParametersPanel::draw_item_buttons(const Json& items, const std::string& ke
     if (ImGui::SmallButton(fmt::format("{}##{}{}", label, name, at).c_str())) {
       Json changed = items;
       change(changed);
-      ask(fmt::format("{} {}", name, dotted(at)), pointer, std::move(changed));
+      form_.ask(fmt::format("{} {}", name, dotted(at)), pointer, std::move(changed));
     }
-    note(at + ":" + name, help);
+    form_.note(at + ":" + name, help);
   };
   button("+", "duplicate", "One more like this", [&](Json& changed) {
     if (is_list)
@@ -121,50 +120,53 @@ void ParametersPanel::draw_item_buttons(const Json& items, const std::string& ke
   });
 }
 
-/// The objects of a list or a map, a branch each.
-void ParametersPanel::draw_items(const Outline& o, const Json& value, const std::string& pointer)
+void ItemRows::draw_items(const Outline& o, const Json& value, const std::string& pointer)
 {
   for (const auto& entry : value.items()) {
     const Json& item = entry.value();
     const std::string& key = entry.key();
     const std::string at = child_of(pointer, key);
-    if (is_searching() && !any_wanted(o, item, at)) continue;
+    if (form_.searching() && !form_.wants_any(o, item, at)) continue;
     const std::string name = item.value("name", "");
-    const bool open = draw_label(name.empty() ? key : fmt::format("{}  {}", key, name), at, false, true);
+    const bool open = rows_.draw_label(name.empty() ? key : fmt::format("{}  {}", key, name), at, false, true);
     ImGui::TableNextColumn();
-    draw_type(o, item, at);
+    values_.draw_type(o, item, at);
     draw_item_buttons(value, key, pointer);
-    if (o.kind == Kind::map && open) {
-      ImGui::TextDisabled("name");
-      ImGui::SameLine();
-      const auto problem = [&](const std::string& text) -> std::optional<Problem> {
-        if (!text.empty() && !value.contains(text)) return std::nullopt;
-        return Problem{at, at, text.empty() ? "a name is wanted" : "there is another " + text};
-      };
-      if (const auto to = type_text(at + ":name", key, -ImGui::GetFrameHeight(), problem)) rename(pointer, key, *to);
-      if (typed_at_ == at + ":name" && wrong_) draw_wrapped(colour::error, wrong_->text);
-    }
-    draw_problem(at, !open);
+    if (o.kind == Kind::map && open) draw_name(value, key, pointer);
+    rows_.draw_problem(at, !open);
     if (!open) continue;
-    draw_fields(o.fields(item), item, at);
+    rows_.draw_fields(o.fields(item), item, at);
     ImGui::TreePop();
   }
 }
 
-/// Of a map; what uses the name is renamed with it.
-void ParametersPanel::rename(const std::string& map, const std::string& name, const std::string& to)
+/// Of an item of a map, to be typed.
+void ItemRows::draw_name(const Json& items, const std::string& name, const std::string& pointer)
 {
-  Json whole = draft_.value(), renamed = Json::object();
+  const std::string at = child_of(pointer, name), id = at + ":name";
+  ImGui::TextDisabled("name");
+  ImGui::SameLine();
+  const auto problem = [&](const std::string& text) -> std::optional<Problem> {
+    if (!text.empty() && !items.contains(text)) return std::nullopt;
+    return Problem{at, at, text.empty() ? "a name is wanted" : "there is another " + text};
+  };
+  if (const auto to = values_.type_text(id, name, -ImGui::GetFrameHeight(), problem)) rename(pointer, name, *to);
+  if (values_.typed_at() == id && values_.wrong()) draw_wrapped(colour::error, values_.wrong()->text);
+}
+
+/// Of a map; what uses the name is renamed with it.
+void ItemRows::rename(const std::string& map, const std::string& name, const std::string& to)
+{
+  Json whole = form_.draft.value(), renamed = Json::object();
   Json& items = whole[Json::json_pointer(map)];
   if (to.empty() || items.contains(to)) return;
   for (const auto& [key, item] : items.items()) renamed[key == name ? to : key] = item;
   items = renamed;
   rename_uses(preset::outline(whole), whole, name, to);
-  ask(fmt::format("rename {} to {}", name, to), "", std::move(whole));
+  form_.ask(fmt::format("rename {} to {}", name, to), "", std::move(whole));
 }
 
-/// A table's rows, or the numbers or texts of a list.
-void ParametersPanel::draw_rows(const Outline& o, const Json& value, const std::string& pointer)
+void ItemRows::draw_rows(const Outline& o, const Json& value, const std::string& pointer)
 {
   const bool pairs = o.kind == Kind::table;
   if (pairs) {
@@ -178,20 +180,20 @@ void ParametersPanel::draw_rows(const Outline& o, const Json& value, const std::
   const auto draw_row = [&](std::size_t i) {
     const std::string at = child_of(pointer, std::to_string(i));
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-    draw_label(std::to_string(i), at, true, false);
+    rows_.draw_label(std::to_string(i), at, true, false);
     ImGui::TableNextColumn();
     const float width = ImGui::GetContentRegionAvail().x - 3 * ImGui::GetFrameHeight();
     if (pairs)
       for (std::size_t c = 0; c < 2; ++c) {
         if (c > 0) ImGui::SameLine(0, gap);
-        draw_number({o.field.columns[c].bounds, false, (width - gap) / 2}, value[i].at(c), child_of(at, std::to_string(c)));
+        values_.draw_number({o.field.columns[c].bounds, false, (width - gap) / 2}, value[i].at(c), child_of(at, std::to_string(c)));
       }
     else if (o.kind == Kind::texts)
-      draw_text(at, value[i], width, [](const std::string& text) { return Json(text); });
+      values_.draw_text(at, value[i], width, [](const std::string& text) { return Json(text); });
     else
-      draw_number({o.field.bounds, o.whole, width}, value[i], at);
+      values_.draw_number({o.field.bounds, o.whole, width}, value[i], at);
     draw_item_buttons(value, std::to_string(i), pointer);
-    draw_problem(at, true);
+    rows_.draw_problem(at, true);
   };
   if (value.size() <= many_rows) {
     for (std::size_t i = 0; i < value.size(); ++i) draw_row(i);

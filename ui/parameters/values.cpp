@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The widgets of single values: a number is dragged or typed, a word is chosen, a text is typed, a file is chosen.
+#include "ui/parameters/values.h"
 #include "base/files.h"
 #include "base/numbers.h"
 #include "optics/spectrum.h"
 #include "preset/change_engine.h"
 #include "preset/field.h"
-#include "ui/parameters/panel.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -59,32 +59,31 @@ std::vector<Outline::Word> as_words(const std::vector<std::string>& names)
 
 } // namespace
 
-std::string ParametersPanel::unit_of(const preset::Field& field) const
+std::string ValueWidgets::unit_of(const preset::Field& field) const
 {
-  return field.unit == preset::length_unit ? draft_.value().value("unit", "") : std::string(field.unit);
+  return field.unit == preset::length_unit ? form_.draft.value().value("unit", "") : std::string(field.unit);
 }
 
-/// The field's widget, then its unit.
-void ParametersPanel::draw_value(const Outline& o, const Json& value, const std::string& pointer)
+void ValueWidgets::draw_value(const Outline& o, const Json& value, const std::string& pointer)
 {
   const std::string unit = unit_of(o.field);
   const float after =
       (unit.empty() ? 0 : ImGui::CalcTextSize(unit.c_str()).x + gap()) + ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
   const float width = std::max(ImGui::GetContentRegionAvail().x - after, 4 * ImGui::GetFontSize());
-  const auto set = [&](std::string_view word) { ask(dotted(pointer) + ": " + std::string(word), pointer, word); };
+  const auto set = [&](std::string_view word) { form_.ask(dotted(pointer) + ": " + std::string(word), pointer, word); };
   switch (o.kind) {
   case Kind::boolean: {
     bool on = value == true;
-    if (ImGui::Checkbox(("##" + pointer).c_str(), &on)) ask(dotted(pointer), pointer, on);
-    note(pointer);
+    if (ImGui::Checkbox(("##" + pointer).c_str(), &on)) form_.ask(dotted(pointer), pointer, on);
+    form_.note(pointer);
     break;
   }
   case Kind::word:
     draw_choice(pointer, text_of(value), o.words,
                 o.chooses ? std::function<void(std::string_view)>([&](std::string_view word) {
-                  Json without = draft_.value();
+                  Json without = form_.draft.value();
                   preset::take_foreign(without, word);
-                  ask(dotted(pointer), "", preset::as_type(without, preset::outline, o, word));
+                  form_.ask(dotted(pointer), "", preset::as_type(without, preset::outline, o, word));
                 })
                           : set,
                 width);
@@ -97,7 +96,7 @@ void ParametersPanel::draw_value(const Outline& o, const Json& value, const std:
     if (word.empty()) break;
     ImGui::SameLine(0, gap());
     if (ImGui::Button((word + "##" + pointer).c_str())) set(word);
-    note(pointer + ":" + word, std::string(o.field.sentence));
+    form_.note(pointer + ":" + word, std::string(o.field.sentence));
     break;
   }
   case Kind::numbers: {
@@ -113,7 +112,7 @@ void ParametersPanel::draw_value(const Outline& o, const Json& value, const std:
     if (names != preset::Names::nothing) {
       std::vector<std::string> known;
       if (names == preset::Names::material)
-        for (const auto& [name, material] : draft_.value()["scene"]["materials"].items()) known.push_back(name);
+        for (const auto& [name, material] : form_.draft.value()["scene"]["materials"].items()) known.push_back(name);
       else
         known = names == preset::Names::illuminant ? optics::illuminant_names() : optics::colorchecker_names();
       draw_choice(pointer, text_of(value), as_words(known), set, width);
@@ -121,7 +120,7 @@ void ParametersPanel::draw_value(const Outline& o, const Json& value, const std:
     }
     const bool file = o.field.text == preset::Text::file;
     draw_text(pointer, value, file ? width - ImGui::GetFrameHeight() - gap() : width, [](const std::string& text) { return Json(text); });
-    if (file) draw_file_choice(pointer);
+    if (file) file_choice_.draw(form_, pointer);
     break;
   }
   }
@@ -130,8 +129,7 @@ void ParametersPanel::draw_value(const Outline& o, const Json& value, const std:
   ImGui::TextDisabled("%s", unit.c_str());
 }
 
-/// Dragged, or typed after a click. What is no number is a text.
-void ParametersPanel::draw_number(const Number& number, const Json& value, const std::string& pointer)
+void ValueWidgets::draw_number(const Number& number, const Json& value, const std::string& pointer)
 {
   const double now = value.is_number() ? value.get<double>() : 0;
   const bool possible = value.is_number() && number.bounds.contain(now) && (!number.whole || std::trunc(now) == now);
@@ -163,25 +161,23 @@ void ParametersPanel::draw_number(const Number& number, const Json& value, const
     if (ImGui::DragScalar(label.c_str(), ImGuiDataType_Double, &to, static_cast<float>(step), &low, &high, "%.9g", flags))
       dragged = number.whole ? Json(std::llround(rounded(to, step))) : Json(rounded(to, step));
   }
-  note(pointer);
+  form_.note(pointer);
   if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (ImGui::IsItemActivated()) gestures_.begin();
-  if (!dragged.is_null() && number.bounds.contain(dragged.get<double>())) ask(dotted(pointer), pointer, dragged, true);
+  if (ImGui::IsItemActivated()) form_.gestures.begin();
+  if (!dragged.is_null() && number.bounds.contain(dragged.get<double>())) form_.ask(dotted(pointer), pointer, dragged, true);
   if (!ImGui::IsItemDeactivated()) return;
-  ended_ = ImGui::IsItemDeactivatedAfterEdit();
-  if (ended_) return;
+  if (ImGui::IsItemDeactivatedAfterEdit()) return form_.end_gesture();
   number_typed_ = pointer;
   number_focused_ = false;
 }
 
-/// While a text is typed `problem` of it is said. What was typed is there at Enter, or where the keyboard goes elsewhere.
-std::optional<std::string> ParametersPanel::type_text(const std::string& id, const std::string& before, float width,
-                                                      const std::function<std::optional<Problem>(const std::string&)>& problem)
+std::optional<std::string> ValueWidgets::type_text(const std::string& id, const std::string& before, float width,
+                                                   const std::function<std::optional<Problem>(const std::string&)>& problem)
 {
   std::string text = before;
   ImGui::SetNextItemWidth(width);
   input_text(("##text" + id).c_str(), "", text, ImGuiInputTextFlags_AutoSelectAll);
-  note(id);
+  form_.note(id);
   if (ImGui::IsItemActive()) {
     if (typed_at_ == id && typed_ == text) return std::nullopt;
     typed_at_ = id;
@@ -194,55 +190,54 @@ std::optional<std::string> ParametersPanel::type_text(const std::string& id, con
   return std::nullopt;
 }
 
-/// A text that is a field's value.
-void ParametersPanel::draw_text(const std::string& pointer, const Json& value, float width, Json (*read)(const std::string&))
+void ValueWidgets::draw_text(const std::string& pointer, const Json& value, float width, Json (*read)(const std::string&))
 {
-  const auto problem = [&](const std::string& text) { return draft_.trial(pointer, read(text)); };
-  if (const auto typed = type_text(pointer, text_of(value), width, problem)) ask(dotted(pointer), pointer, read(*typed));
+  const auto problem = [&](const std::string& text) { return form_.draft.trial(pointer, read(text)); };
+  if (const auto typed = type_text(pointer, text_of(value), width, problem)) form_.ask(dotted(pointer), pointer, read(*typed));
 }
 
-void ParametersPanel::draw_choice(const std::string& pointer, const std::string& now, const std::vector<Outline::Word>& words,
-                                  const std::function<void(std::string_view)>& choose, float width)
+void ValueWidgets::draw_choice(const std::string& pointer, const std::string& now, const std::vector<Outline::Word>& words,
+                               const std::function<void(std::string_view)>& choose, float width)
 {
   ImGui::SetNextItemWidth(width);
-  Combo list(("##" + pointer).c_str(), now, &places_, pointer);
+  Combo list(("##" + pointer).c_str(), now, &form_.places(), pointer);
   for (const Outline::Word& word : words)
     if (list.entry(std::string(word.name), word.name == now, std::string(word.sentence)) && word.name != now) choose(word.name);
 }
 
-/// In the row of an object: which type it is, where there are several.
-void ParametersPanel::draw_type(const Outline& o, const Json& object, const std::string& pointer)
+void ValueWidgets::draw_type(const Outline& o, const Json& object, const std::string& pointer)
 {
-  const Fields all = o.fields(object);
+  const std::vector<Outline> all = o.fields(object);
   const auto chooser = std::find_if(all.begin(), all.end(), [](const Outline& field) { return field.chooses; });
   if (chooser == all.end()) return ImGui::Dummy({0, ImGui::GetFrameHeight()});
   const std::string key(chooser->field.name), at = child_of(pointer, key);
   const auto choose = [&](std::string_view word) {
     const auto fields = [&](const Json& other) { return o.fields(other); };
-    ask(dotted(at) + ": " + std::string(word), pointer, preset::as_type(object, fields, *chooser, word));
+    form_.ask(dotted(at) + ": " + std::string(word), pointer, preset::as_type(object, fields, *chooser, word));
   };
   draw_choice(at, object.value(key, ""), chooser->words, choose, 8 * ImGui::GetFontSize());
 }
 
-/// A button that opens a list of the files beside the preset, from where other folders are reached.
-void ParametersPanel::draw_file_choice(const std::string& pointer)
+void FileChoice::enter(const fs::path& folder)
+{
+  std::error_code ignored;
+  folder_ = folder.lexically_normal().string();
+  files_.clear();
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    files_.push_back(entry.path().filename().string() + (entry.is_directory(ignored) ? "/" : ""));
+  std::sort(files_.begin(), files_.end());
+}
+
+void FileChoice::draw(Form& form, const std::string& pointer)
 {
   const std::string popup = "files" + pointer;
-  const fs::path beside = fs::absolute(fs::path(draft_.source()).parent_path());
-  const auto enter = [&](const fs::path& folder) {
-    std::error_code ignored;
-    folder_ = folder.lexically_normal().string();
-    files_.clear();
-    for (const auto& entry : fs::directory_iterator(folder, ignored))
-      files_.push_back(entry.path().filename().string() + (entry.is_directory(ignored) ? "/" : ""));
-    std::sort(files_.begin(), files_.end());
-  };
+  const fs::path beside = fs::absolute(fs::path(form.draft.source()).parent_path());
   ImGui::SameLine(0, gap());
   if (ImGui::Button(("...##" + pointer).c_str(), {ImGui::GetFrameHeight(), 0})) {
     enter(beside);
     ImGui::OpenPopup(popup.c_str());
   }
-  note(pointer + ":files", "Choose a file");
+  form.note(pointer + ":files", "Choose a file");
   if (!ImGui::BeginPopup(popup.c_str())) return;
   if (ImGui::Button("Beside the preset")) enter(beside);
   ImGui::SameLine();
@@ -253,13 +248,13 @@ void ParametersPanel::draw_file_choice(const std::string& pointer)
     for (const std::string& name : std::vector<std::string>(files_)) {
       const bool folder = name.ends_with('/');
       const bool chosen = ImGui::Selectable(name.c_str(), false, folder ? ImGuiSelectableFlags_NoAutoClosePopups : 0);
-      note(fmt::format("{}:{}", pointer, name));
+      form.note(fmt::format("{}:{}", pointer, name));
       if (!chosen) continue;
       const fs::path path = fs::path(folder_) / name, near = path.lexically_relative(beside);
       if (folder)
         enter(path);
       else {
-        ask(dotted(pointer), pointer, (near.empty() || *near.begin() == ".." ? path : near).string());
+        form.ask(dotted(pointer), pointer, (near.empty() || *near.begin() == ".." ? path : near).string());
         ImGui::CloseCurrentPopup();
       }
     }

@@ -82,7 +82,7 @@ void draw_buffers(const plan::Plan& plan)
 
 preset::Preset with_field(const preset::Preset& preset, const std::string& pointer, bool value)
 {
-  preset::Preset edited = preset::parse_preset(preset::to_json(preset), preset.source, {path_of(pointer) + (value ? "=true" : "=false")});
+  preset::Preset edited = preset::with_overrides(preset, {path_of(pointer) + (value ? "=true" : "=false")});
   edited.source = preset.source;
   return edited;
 }
@@ -120,7 +120,7 @@ void PlanPanel::read_fields(const Context& context)
   plan_ = context.run.plan();
   preset_ = *context.preset();
   computed_.clear();
-  const nlohmann::json fields = nlohmann::json::parse(preset::to_json(preset_));
+  const nlohmann::json fields = preset::as_json(preset_);
   for (const plan::Pass& pass : plan_->passes) {
     std::optional<bool>& computed = computed_.emplace_back();
     const nlohmann::json::json_pointer pointer(pass.field);

@@ -9,6 +9,7 @@
 #include "ui/widgets/panel.h"
 
 #include <limits>
+#include <map>
 
 struct ImVec2;
 

@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
+#include <set>
 #include <tuple>
 
 namespace nephroid::ui {
@@ -104,8 +106,9 @@ std::string heading(const Context& context)
 std::string state_text(const SweepQueue::QueuedRun& run)
 {
   if (run.state == State::running) return fmt::format("{:.0f} %", 100 * run.part);
-  constexpr const char* names[] = {"waiting", "running", "done", "failed", "stopped"}; // in the order of State
-  return names[static_cast<std::size_t>(run.state)];
+  static const std::map<State, const char*> names{
+      {State::waiting, "waiting"}, {State::done, "done"}, {State::failed, "failed"}, {State::stopped, "stopped"}};
+  return names.at(run.state);
 }
 
 } // namespace
@@ -113,7 +116,7 @@ std::string state_text(const SweepQueue::QueuedRun& run)
 std::vector<NumberField> number_fields(const preset::Preset& preset)
 {
   std::vector<NumberField> all;
-  const Json json = Json::parse(preset::to_json(preset));
+  const Json json = preset::as_json(preset);
   collect(preset::outline(json), json, "", all);
   return all;
 }

@@ -29,24 +29,46 @@ std::string size_text(std::uintmax_t bytes)
 }
 
 struct DialogKind {
+  Question question;
   const char* title;
-  const char* proposal;             ///< what a proposed name ends in; empty: no name is proposed
-  std::vector<std::string> endings; ///< of the files that it is about
+  const char* proposal;                               ///< what a proposed name ends in; empty: no name is proposed
+  std::vector<std::string> endings;                   ///< of the files that it is about
+  const char *hint = "", *note = "";                  ///< in the field for the name; below the list of files
+  Command (*open)(const std::string& name) = nullptr; ///< what a chosen file is asked for
 };
 
 const DialogKind& kind_of_dialog(Question question)
 {
-  static const DialogKind kinds[] = {{"", "", {}}, // in the order of Question
-                                     {"Open a preset", "", {".json"}},
-                                     {"Open the history of a run", "", {".csv"}},
-                                     {"Open pictures", "", {".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg", ".tif", ".tiff"}},
-                                     {"Open a map of the environment", "", {".hdr", ".exr"}},
-                                     {"Save the preset as", "-edited.nephroid.json", {".json"}},
-                                     {"Save the picture as", ".png", {".png", ".exr"}},
-                                     {"Unsaved changes", "", {}},
-                                     {"", "", {}},
-                                     {"Write a report over the runs", "-report.html", {".html"}}};
-  return kinds[static_cast<std::size_t>(question)];
+  const auto pin = [](const std::string& name) { return Command(command::PinFile{name}); };
+  const auto show = [](const std::string& name) { return Command(command::PinFile{name, true}); };
+  const auto surround = [](const std::string& name) { return Command(command::OpenMap{name}); };
+  static const DialogKind kinds[] = {{Question::open, "Open a preset", "", {".json"}},
+                                     {Question::open_history,
+                                      "Open the history of a run",
+                                      "",
+                                      {".csv"},
+                                      "folder of a run, or its history.csv",
+                                      "Of a folder the picture is kept too. Dropping it on the window does the same.",
+                                      pin},
+                                     {Question::open_pictures,
+                                      "Open pictures",
+                                      "",
+                                      {".exr", ".hdr", ".pfm", ".png", ".jpg", ".jpeg", ".tif", ".tiff"},
+                                      "path of a picture",
+                                      "Several at once: drop them on the panel Runs, which lists them.",
+                                      show},
+                                     {Question::open_map,
+                                      "Open a map of the environment",
+                                      "",
+                                      {".hdr", ".exr"},
+                                      "a latitude-longitude picture",
+                                      "Pictures of all directions (.hdr, .exr). Dropping one on the window does the same.",
+                                      surround},
+                                     {Question::save_preset, "Save the preset as", "-edited.nephroid.json", {".json"}},
+                                     {Question::save_picture, "Save the picture as", ".png", {".png", ".exr"}},
+                                     {Question::save_report, "Write a report over the runs", "-report.html", {".html"}},
+                                     {Question::unsaved, "Unsaved changes", "", {}}};
+  return *std::ranges::find(kinds, question, &DialogKind::question);
 }
 
 /// A field for a file's name, and a button. True where the name is chosen by one of them. replaces: Enter in the field only goes to the
@@ -160,7 +182,7 @@ FileList::Picked FileList::draw(float width, float height)
 
 void Dialogs::begin(Workbench& workbench)
 {
-  shown_ = workbench.question();
+  shown_ = workbench.questions().question();
   name_.clear();
   const DialogKind& kind = kind_of_dialog(shown_);
   if (*kind.proposal) name_ = proposed_name(workbench.preset(), kind.proposal);
@@ -177,11 +199,11 @@ void Dialogs::begin(Workbench& workbench)
 
 void Dialogs::draw(Workbench& workbench, Commands& commands)
 {
-  if (workbench.question() == Question::none || workbench.question() == Question::command) {
+  if (workbench.questions().question() == Question::none || workbench.questions().question() == Question::command) {
     shown_ = Question::none;
     return;
   }
-  if (shown_ != workbench.question()) begin(workbench);
+  if (shown_ != workbench.questions().question()) begin(workbench);
   const ImGuiViewport* viewport = ImGui::GetMainViewport();
   ImGui::SetNextWindowPos(viewport->GetWorkCenter(), ImGuiCond_Always, {0.5f, 0.5f});
   bool open = true;
@@ -192,14 +214,10 @@ void Dialogs::draw(Workbench& workbench, Commands& commands)
   if (ImGui::IsKeyPressed(ImGuiKey_Escape, false)) open = false;
   if (shown_ == Question::open)
     draw_open(commands);
-  else if (shown_ == Question::open_history)
-    draw_open_history(commands);
-  else if (shown_ == Question::open_pictures)
-    draw_open_pictures(commands);
-  else if (shown_ == Question::open_map)
-    draw_open_map(commands);
   else if (shown_ == Question::unsaved)
     draw_unsaved(workbench, commands);
+  else if (kind_of_dialog(shown_).open)
+    draw_open_file(commands);
   else
     draw_save(commands);
   if (!open) commands.push_back(command::Ask{Question::none});
@@ -238,28 +256,13 @@ bool Dialogs::pick_file()
   return picked == FileList::Picked::opened;
 }
 
-void Dialogs::draw_open_history(Commands& commands)
+void Dialogs::draw_open_file(Commands& commands)
 {
-  const bool typed = choose_name("folder of a run, or its history.csv", ImGui::GetFontSize() * 41, name_, "Open", !name_.empty());
+  const DialogKind& kind = kind_of_dialog(shown_);
+  const bool typed = choose_name(kind.hint, ImGui::GetFontSize() * 41, name_, "Open", !name_.empty());
   const bool picked = pick_file();
-  if (typed || picked) commands.push_back(command::PinFile{name_});
-  ImGui::TextDisabled("Of a folder the picture is kept too. Dropping it on the window does the same.");
-}
-
-void Dialogs::draw_open_pictures(Commands& commands)
-{
-  const bool typed = choose_name("path of a picture", ImGui::GetFontSize() * 41, name_, "Open", !name_.empty());
-  const bool picked = pick_file();
-  if (typed || picked) commands.push_back(command::PinFile{name_, true});
-  ImGui::TextDisabled("Several at once: drop them on the panel Runs, which lists them.");
-}
-
-void Dialogs::draw_open_map(Commands& commands)
-{
-  const bool typed = choose_name("a latitude-longitude picture", ImGui::GetFontSize() * 41, name_, "Open", !name_.empty());
-  const bool picked = pick_file();
-  if (typed || picked) commands.push_back(command::OpenMap{name_});
-  ImGui::TextDisabled("Pictures of all directions (.hdr, .exr). Dropping one on the window does the same.");
+  if (typed || picked) commands.push_back(kind.open(name_));
+  ImGui::TextDisabled("%s", kind.note);
 }
 
 void Dialogs::draw_save(Commands& commands)
@@ -291,7 +294,7 @@ void Dialogs::draw_save(Commands& commands)
 
 void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands)
 {
-  const std::string then = std::holds_alternative<command::Quit>(*workbench.waiting()) ? "quit" : "open";
+  const std::string then = std::holds_alternative<command::Quit>(*workbench.questions().waiting()) ? "quit" : "open";
   ImGui::TextUnformatted("The preset was changed and is not saved.");
   const std::filesystem::path target = save_target(workbench.preset());
   // What waits is carried out once the preset is saved; where saving fails the question stays.
@@ -302,7 +305,7 @@ void Dialogs::draw_unsaved(const Workbench& workbench, Commands& commands)
       commands.push_back(command::SavePreset{target});
   }
   ImGui::SameLine();
-  if (ImGui::Button(then == "quit" ? "Quit without saving" : "Open without saving")) commands.push_back(*workbench.waiting());
+  if (ImGui::Button(then == "quit" ? "Quit without saving" : "Open without saving")) commands.push_back(*workbench.questions().waiting());
   ImGui::SameLine();
   if (places_.button("Cancel", "cancel", "As Escape does: nothing is lost")) commands.push_back(command::Ask{Question::none});
 }

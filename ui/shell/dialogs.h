@@ -64,9 +64,7 @@ private:
   void begin(Workbench& workbench);
   bool pick_file();
   void draw_open(Commands& commands);
-  void draw_open_history(Commands& commands);
-  void draw_open_pictures(Commands& commands);
-  void draw_open_map(Commands& commands);
+  void draw_open_file(Commands& commands);
   void draw_save(Commands& commands);
   void draw_unsaved(const Workbench& workbench, Commands& commands);
 

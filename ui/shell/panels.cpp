@@ -22,7 +22,7 @@ namespace {
 /// Those of an engine stand together, in the middle.
 std::vector<PanelEntry> make_table()
 {
-  std::vector<PanelEntry> table{{"view", ViewPanel::title, "", make_panel<ViewPanel>, ViewedScene::look},
+  std::vector<PanelEntry> table{{"view", ViewPanel::title, "", make_panel<ViewPanel>, ViewedScene::take},
                                 {"error", ErrorPanel::title, "", make_panel<ErrorPanel>},
                                 {"parameters", ParametersPanel::title, "", make_panel<ParametersPanel>},
                                 {"runs", RunsPanel::title, "", make_panel<RunsPanel>}};
@@ -80,12 +80,12 @@ bool serves(const PanelEntry& entry, const preset::Preset& preset)
   return entry.engine.empty() || entry.engine == preset.settings.engine();
 }
 
-std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
+SceneFacts take_facts(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
 {
-  std::vector<std::any> seen;
+  SceneFacts facts;
   for (const PanelEntry& entry : panel_table())
-    if (entry.look_around && serves(entry, preset)) seen.push_back(entry.look_around(preset, loaded));
-  return seen;
+    if (entry.take_facts && serves(entry, preset)) entry.take_facts(preset, loaded, facts);
+  return facts;
 }
 
 void check_layout(const std::string& name)
@@ -104,10 +104,10 @@ FrontTabs panels_in_sight()
   return tabs;
 }
 
-FrontTabs begin_layout(const std::string& name, const std::string& engine, unsigned dock_space, float width, float height)
+FrontTabs begin_layout(const std::string& name, const preset::Preset& preset, unsigned dock_space, float width, float height)
 {
   check_layout(name);
-  const PanelEntry& front = *front_tab(name, engine);
+  const PanelEntry& front = *front_tab(name, std::string(preset.settings.engine()));
   ImGui::DockBuilderRemoveNode(dock_space);
   ImGui::DockBuilderAddNode(dock_space, ImGuiDockNodeFlags_DockSpace);
   ImGui::DockBuilderSetNodeSize(dock_space, {width, height});
@@ -116,18 +116,21 @@ FrontTabs begin_layout(const std::string& name, const std::string& engine, unsig
     ImGui::DockBuilderFinish(dock_space);
     return {tab_id(name.empty() ? panel_table().front().title : front.title)};
   }
-  // The tabs are as wide as a plot with its legend needs; the picture has the rest.
-  const float tab_width = std::clamp(ImGui::GetFontSize() * 28, 0.3f * width, 0.45f * width);
-  ImGuiID at_right = 0, below = 0;
-  ImGuiID picture = ImGui::DockBuilderSplitNode(dock_space, ImGuiDir_Left, 1 - tab_width / std::max(width, 1.0f), nullptr, &at_right);
   // Beside what an engine's own panel shows the fields are under the picture, so that both are in sight together.
   const bool fields_below = !front.engine.empty();
+  const auto is_below = [&](const PanelEntry& tab) { return fields_below && (tab.name == "parameters" || tab.name == "presets"); };
+  // The tabs are as wide as a plot with its legend needs and, where the window has room for that, as their titles; the picture has the
+  // rest.
+  const float most = 0.45f * width;
+  float titles = 3 * ImGui::GetFontSize(); // with the buttons of their dock
+  for (const PanelEntry& tab : tabs())
+    if (serves(tab, preset) && !is_below(tab)) titles += ImGui::TabItemCalcSize(tab.title, true).x + ImGui::GetStyle().ItemInnerSpacing.x;
+  const float tab_width = std::clamp(std::max(ImGui::GetFontSize() * 28, titles <= most ? titles : 0), 0.3f * width, most);
+  ImGuiID at_right = 0, below = 0;
+  ImGuiID picture = ImGui::DockBuilderSplitNode(dock_space, ImGuiDir_Left, 1 - tab_width / std::max(width, 1.0f), nullptr, &at_right);
   if (fields_below) picture = ImGui::DockBuilderSplitNode(picture, ImGuiDir_Up, 0.58f, nullptr, &below);
   ImGui::DockBuilderDockWindow(panel_table().front().title, picture);
-  for (const PanelEntry& tab : tabs()) {
-    const bool is_below = fields_below && (tab.name == "parameters" || tab.name == "presets");
-    ImGui::DockBuilderDockWindow(tab.title, is_below ? below : at_right);
-  }
+  for (const PanelEntry& tab : tabs()) ImGui::DockBuilderDockWindow(tab.title, is_below(tab) ? below : at_right);
   ImGui::DockBuilderGetNode(at_right)->SelectedTabId = tab_id(front.title);
   ImGui::DockBuilderFinish(dock_space);
   return {tab_id(front.title)};

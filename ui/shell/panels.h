@@ -20,8 +20,8 @@ bool is_open(const PanelEntry& entry, const Context& context);
 bool is_seen(const PanelEntry& entry);
 /// Whether the panel is for this preset.
 bool serves(const PanelEntry& entry, const preset::Preset& preset);
-/// What the panels of the preset's engine look for in a scene (LookAround of state/device_runs.h).
-std::vector<std::any> look_around(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded);
+/// What the panels of the preset's engine keep of a scene (TakeFacts of state/device_runs.h).
+SceneFacts take_facts(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded);
 
 /// Throws bad_input naming the layouts there are: each is named after the panel that is in front of the tabs. Empty is the engine's own.
 void check_layout(const std::string& name);
@@ -30,9 +30,9 @@ void check_layout(const std::string& name);
 using FrontTabs = std::vector<unsigned>;
 /// Of all panels that are seen now.
 FrontTabs panels_in_sight();
-/// Docks the picture at the left of the dock space of this id (an ImGuiID) and the other panels as tabs at its right. engine: of the
-/// preset. Inside of a frame, before the panels.
-FrontTabs begin_layout(const std::string& name, const std::string& engine, unsigned dock_space, float width, float height);
+/// Docks the picture at the left of the dock space of this id (an ImGuiID) and the other panels as tabs at its right. Inside of a frame,
+/// before the panels.
+FrontTabs begin_layout(const std::string& name, const preset::Preset& preset, unsigned dock_space, float width, float height);
 /// As layout_now() had it; panels that it does not know are tabs beside the first one. Inside of a frame, before the dock space.
 FrontTabs restore_layout(const std::string& ini);
 /// In the frames after either: tabs that come up may go before those that shall be in front.

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace nephroid::ui {
 namespace {
@@ -73,8 +74,11 @@ float line_height(const Message& message, float width)
 
 const char* name_of(job::State state)
 {
-  constexpr const char* names[] = {"no run", "preparing", "running", "paused", "finished", "cancelled", "failed"}; // in the order of State
-  return names[static_cast<std::size_t>(state)];
+  using enum job::State;
+  static const std::map<job::State, const char*> names{{idle, "no run"},   {preparing, "preparing"}, {running, "running"},
+                                                       {paused, "paused"}, {finished, "finished"},   {cancelled, "cancelled"},
+                                                       {failed, "failed"}};
+  return names.at(state);
 }
 
 std::string duration_text(double seconds)

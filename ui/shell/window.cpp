@@ -212,7 +212,7 @@ private:
   void frame()
   {
     clock_.begin();
-    window_.set_appearance(workbench_.settings().theme, workbench_.settings().text_size);
+    window_.set_appearance(workbench_.setup().settings().theme, workbench_.setup().settings().text_size);
     window_.begin_frame();
     if (window_.take_activity()) last_touch_ = Clock::now();
     workbench_.update();
@@ -221,7 +221,7 @@ private:
     if (window_.take_close_request()) commands.push_back(command::Quit{});
     window_.end_frame();
     workbench_.apply(commands); // before OpenGL draws, which may take longer than all else: an edit's run begins now
-    done_ = workbench_.quitting() || is_last_frame();
+    done_ = workbench_.questions().quitting() || is_last_frame();
     clock_.driver();
     window_.draw_frame();
     clock_.own();
@@ -232,7 +232,7 @@ private:
     window_.present();
     clock_.own();
     edits_ += static_cast<std::size_t>(std::count_if(commands.begin(), commands.end(), changes_preset));
-    if (workbench_.take_reopen()) keeper_.reopen(workbench_);
+    if (workbench_.questions().take_reopen()) keeper_.reopen(workbench_);
     workbench_.offer_earlier(keeper_.has_earlier());
     keeper_.update(workbench_);
     window_.set_title(title(workbench_));
@@ -311,7 +311,7 @@ int open_window(const Options& options)
   compute::DeviceOptions device;
   device.selector = options.device;
   device.kernels = options.kernels;
-  DeviceRuns runs(device, look_around);
+  DeviceRuns runs(device, take_facts);
   Workbench workbench(runs);
   if (!cache_note.empty()) workbench.add_note(cache_note);
   if (const std::filesystem::path folder = state_folder(); keeps_sessions(options) && !folder.empty())

@@ -95,7 +95,7 @@ Commands Workspace::draw(Workbench& workbench)
       draw_toolbar(context, places_);
       ImGui::EndMainMenuBar();
     }
-    run_shortcuts(context, workbench.question() != Question::none, workbench.help_shown());
+    run_shortcuts(context, workbench.questions().question() != Question::none, workbench.setup().help_shown());
   });
   guarded("status line", commands, [&] {
     strip("status", ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y, [&] { draw_status_line(context, workbench.notes()); });
@@ -114,9 +114,9 @@ Commands Workspace::draw(Workbench& workbench)
     if (context.preset() && serves(open.entry, *context.preset()) && is_open(open.entry, context))
       guarded(open.entry.title, commands, [&] { draw_panel(open, context); });
   guarded("notes", commands, [&] { draw_notes_over_panels(errors_or_notes(workbench.messages(), false)); });
-  if (workbench.help_shown()) guarded("help", commands, [&] { draw_help(context); });
+  if (workbench.setup().help_shown()) guarded("help", commands, [&] { draw_help(context); });
   guarded("dialog", commands, [&] { dialogs_.draw(workbench, commands); });
-  guarded("commands", commands, [&] { palette_.draw(context, workbench.question() == Question::command); });
+  guarded("commands", commands, [&] { palette_.draw(context, workbench.questions().question() == Question::command); });
   return commands;
 }
 
@@ -142,7 +142,7 @@ void Workspace::draw_panel(const Open& open, const Context& context)
 
 void Workspace::draw_start_page(Workbench& workbench, const Context& context)
 {
-  to_front_ = workbench.take_panel_to_front();
+  to_front_ = workbench.setup().take_panel_to_front();
   for (const Open& open : panels_)
     if (open.entry.name == "presets") start_page_.draw(context, *open.panel, open.entry.name == to_front_);
 }
@@ -151,8 +151,8 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
 {
   const std::array<float, 2> size{ImGui::GetMainViewport()->WorkSize.x, ImGui::GetMainViewport()->WorkSize.y};
   const std::string engine = context.engine();
-  to_front_ = workbench.take_panel_to_front();
-  const bool reset = workbench.take_layout_reset();
+  to_front_ = workbench.setup().take_panel_to_front();
+  const bool reset = workbench.setup().take_layout_reset();
   const bool begins = laid_out_for_ != engine || reset;
   const auto kept = context.settings.engines.find(engine);
   const auto& opened = workbench.edits()->state().opened;
@@ -161,7 +161,7 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
   const bool has_own = name_.empty() && kept != context.settings.engines.end() && !kept->second.ini.empty();
   if (begins && has_own) front_tabs_ = restore_layout(kept->second.ini);
   const ImGuiID id = ImGui::DockSpaceOverViewport(ImGui::GetID("panels"), ImGui::GetMainViewport());
-  if (begins && !has_own) front_tabs_ = begin_layout(name_, engine, id, size[0], size[1]);
+  if (begins && !has_own) front_tabs_ = begin_layout(name_, *context.preset(), id, size[0], size[1]);
   if (begins) {
     laid_out_for_ = engine;
     frames_laid_out_ = 0;
@@ -174,7 +174,8 @@ void Workspace::draw_dock_space(Workbench& workbench, const Context& context)
     bring_to_front(front_tabs_);
     bring_to_front(kept_in_front_);
     // Whatever had the keyboard: its tab would come to the front. A dialog keeps it, and the View stays behind where another is before it.
-    if (workbench.question() == Question::none && is_seen(panel_table().front())) ImGui::SetWindowFocus(panel_table().front().title);
+    if (workbench.questions().question() == Question::none && is_seen(panel_table().front()))
+      ImGui::SetWindowFocus(panel_table().front().title);
   }
   if (frames_since_ < settled) {
     if (++frames_since_ == settled) before_ = layout_now();

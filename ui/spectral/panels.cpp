@@ -11,8 +11,8 @@ std::vector<PanelEntry> spectral_panels()
 {
   return {{"dispersion", DispersionPanel::title, "spectral", make_panel<DispersionPanel>},
           {"spectra", SpectraPanel::title, "spectral", make_panel<SpectraPanel>,
-           [](const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded) {
-             return SeenByGlass::look(preset, loaded->scene, *loaded->bvh);
+           [](const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded, SceneFacts& facts) {
+             facts.spectra = SeenByGlass::of(preset, loaded->scene, *loaded->bvh);
            }}};
 }
 

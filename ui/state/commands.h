@@ -116,6 +116,7 @@ struct Edit {
   preset::Preset preset;
   std::uint64_t gesture = 0;
   bool live = false;
+  bool was_read = false; ///< by the reader of presets: it has nothing to refuse
 };
 /// The sweep as it shall be: which fields take which values. An edit to undo; the run goes on, as its preset is the same.
 struct SetSweep {
@@ -176,16 +177,17 @@ struct ShowLines {
 };
 /// Keeps the history and the picture of the run as they are now.
 struct PinRun {};
-/// A picture, or the history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. Read in the background.
-struct PinFile {
-  std::filesystem::path path;
-  bool show = false; ///< a picture is then shown in the View
-};
 struct ChangePin {
   std::uint64_t pin = 0;
   std::string name;         ///< empty: stays as it was
   std::uint32_t colour = 0; ///< IM_COL32
   bool shown = true;        ///< in the plot
+};
+/// A picture, or the history of an earlier run: history.csv, or its folder, whose image.exr is then kept too. Read in the background.
+struct PinFile {
+  std::filesystem::path path;
+  bool show = false;                  ///< a picture is then shown in the View
+  std::optional<ChangePin> like = {}; ///< the name, colour and visibility that it had in an earlier session
 };
 struct Unpin {
   std::uint64_t pin = 0;

@@ -6,7 +6,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
+#include <utility>
 
 namespace nephroid::ui {
 namespace {
@@ -76,6 +80,25 @@ void Comparing::carry_out(const command::ShowDifference& c)
 void Comparing::carry_out(const command::PinRun&)
 {
   if (run_.snapshot()) pin(run_now(run_));
+}
+
+void Comparing::carry_out(const command::PinFile& c)
+{
+  services_.follow_ups.push_back(command::Ask{});
+  tasks_.start(
+      pins_, {"reading " + c.path.string(), TaskKind::request}, [path = c.path] { return read_pin(path); },
+      [this, like = c.like, show = c.show](PinnedRun run) {
+        if (like) {
+          run.name = like->name;
+          run.colour = like->colour;
+          run.shown = like->shown;
+        }
+        const bool shows_picture = show && !run.is_run();
+        if (shows_picture)
+          services_.messages.note(fmt::format("opened {}, {} x {} ({})", run.name, run.picture->width, run.picture->height, run.read_as));
+        const std::uint64_t id = pin(std::move(run));
+        if (shows_picture) comparison_.shown = id;
+      });
 }
 
 void Comparing::carry_out(const command::Unpin& c)

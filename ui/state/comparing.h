@@ -7,10 +7,11 @@
 #include "ui/state/commands.h"
 #include "ui/state/pinned_runs.h"
 #include "ui/state/run_in_hand.h"
-#include "ui/state/tasks.h"
+#include "ui/state/services.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,7 +48,7 @@ struct ShownMetrics {
 class Comparing {
 public:
   /// Both outlive it.
-  Comparing(const RunInHand& run, TaskQueue& tasks) : run_(run), tasks_(tasks) {}
+  Comparing(const RunInHand& run, Services& services) : run_(run), services_(services), tasks_(services.tasks) {}
 
   const PinnedRuns& pinned() const { return pinned_; }
   const Comparison& comparison() const { return comparison_; }
@@ -90,10 +91,13 @@ public:
   void carry_out(const command::ShowDifference& c);
   void carry_out(const command::ShowLayer& c) { comparison_.layer = c.layer; }
   void carry_out(const command::PinRun&);
+  void carry_out(const command::PinFile& c);
   void carry_out(const command::ChangePin& c) { pinned_.change(c.pin, c.name, c.colour, c.shown); }
   void carry_out(const command::Unpin& c);
   /// Its id.
   std::uint64_t pin(PinnedRun run) { return pinned_.add(std::move(run)).id; }
+  /// Whether pins are being read.
+  bool reads_pins() const { return tasks_.busy(pins_); }
   /// The map is of another preset, whose run is shown.
   void forget()
   {
@@ -127,7 +131,9 @@ private:
   void update_metrics(TaskQueue::Clock::time_point now);
 
   const RunInHand& run_;
-  TaskQueue& tasks_;
+  Services& services_;
+  TaskQueue& tasks_; ///< of those
+  TaskKey pins_;
   PinnedRuns pinned_;
   Comparison comparison_;
   NewestResult<ShownDifference> difference_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a panel reads, and where what it asks for goes. Made anew for every frame.
 #pragma once
+#include "ui/state/view_state.h"
 #include "ui/state/commands.h"
 #include "ui/state/comparing.h"
 #include "ui/state/recent_files.h"
@@ -17,21 +18,6 @@
 #include <vector>
 
 namespace nephroid::ui {
-
-/// What a person chose to see. Nothing here needs a new run.
-struct ViewState {
-  ViewSettings view_settings;
-  std::string error_metric;                     ///< to be plotted; empty: the run's own. Not every run has it.
-  std::optional<std::array<int, 2>> pixel;      ///< that is inspected: column and row; may lie outside of the picture
-  std::optional<PixelRegion> region;            ///< that there are statistics of; may reach out of the picture, is never empty
-  std::vector<std::vector<preset::Vec3>> lines; ///< over the View's picture: command::ShowLines
-  std::string material;                         ///< the dielectric to be shown; empty or none of the preset's: the first (shown_dielectric)
-  Selection selection;                          ///< may be of a preset that was: in_preset()
-  Handles handles;
-  command::Nudged nudged;          ///< the newest
-  std::vector<Bookmark> bookmarks; ///< of cameras
-  bool operator==(const ViewState&) const = default;
-};
 
 struct Context {
   const UndoStack* edits; ///< the preset that is edited, with its history; null before one is opened

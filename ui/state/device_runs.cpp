@@ -28,8 +28,8 @@ std::shared_ptr<const measure::Reference> reference_of(const run::Prepared& prep
 
 } // namespace
 
-DeviceRuns::DeviceRuns(compute::DeviceOptions device, LookAround look_around)
-    : kernels_(device.kernels), look_around_(look_around), run_([device = std::move(device)] { return compute::Context::open(device); })
+DeviceRuns::DeviceRuns(compute::DeviceOptions device, TakeFacts take_facts)
+    : kernels_(device.kernels), take_facts_(take_facts), run_([device = std::move(device)] { return compute::Context::open(device); })
 {
   if (!kernels_.empty()) watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
@@ -52,9 +52,9 @@ NewRun DeviceRuns::make(const preset::Preset& preset, const Watch& watch)
   preset::at_origins(preset, [&] { run::make_ready(run_, preset, {.watch = watch, .reference = reference}); });
   auto plan = std::make_shared<plan::Plan>(*run_.prepared->plan);
   plan->notes.insert(plan->notes.end(), notes.begin(), notes.end());
-  std::vector<std::any> seen;
-  if (look_around_) seen = look_around_(preset, run_.prepared->loaded);
-  return {std::move(run_.job),        std::move(plan), run_.reference, std::move(seen), run_.device.opened().device(),
+  SceneFacts facts;
+  if (take_facts_) facts = take_facts_(preset, run_.prepared->loaded);
+  return {std::move(run_.job),        std::move(plan), run_.reference, std::move(facts), run_.device.opened().device(),
           run_.prepared->preset.white};
 }
 

@@ -15,13 +15,13 @@
 
 namespace nephroid::ui {
 
-/// NewRun::seen of a loaded scene; on the worker's thread.
-using LookAround = std::vector<std::any> (*)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&);
+/// What panels keep of a loaded scene; called on the worker's thread.
+using TakeFacts = SceneFacts (*)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&);
 
 class DeviceRuns : public RunSource {
 public:
-  /// look_around: null where nobody wants to know what is seen.
-  explicit DeviceRuns(compute::DeviceOptions device, LookAround look_around = nullptr);
+  /// take_facts: null where no panel asks.
+  explicit DeviceRuns(compute::DeviceOptions device, TakeFacts take_facts = nullptr);
   ~DeviceRuns() override;
   /// Reads the scene and builds the job. Throws as run::make_ready.
   NewRun make(const preset::Preset& preset, const Watch& watch) override;
@@ -34,7 +34,7 @@ private:
   void watch(const std::stop_token& stop);
 
   std::filesystem::path kernels_; ///< the kernels folder; empty: none
-  LookAround look_around_;
+  TakeFacts take_facts_;
   run::ReadyRun run_; ///< the newest one, without its job; the worker's thread only
   std::atomic<bool> changed_{false}, reread_{false}, reopen_{false};
   std::mutex watching_;                      ///< held for a look at the folder

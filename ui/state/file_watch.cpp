@@ -73,4 +73,49 @@ void FileWatch::poll(const std::stop_token& stop)
   }
 }
 
+void DocumentFiles::carry_out(const command::ReloadPreset&)
+{
+  const preset::Preset* preset = document_.preset();
+  if (!preset || !document_.take_over(preset::read_with_sweep(preset->source))) messages_.note("the file has what is shown");
+}
+
+/// Another program wrote the preset's file.
+void DocumentFiles::follow_own_file()
+{
+  const std::filesystem::path file = document_.preset()->source;
+  try {
+    preset::WithSweep read = preset::read_with_sweep(file.string());
+    if (!document_.modified()) {
+      if (document_.take_over(std::move(read))) messages_.note(file.filename().string() + " was changed on disk and is taken over");
+    } else if (read.preset != *document_.preset() || read.sweep != document_.edits()->sweep())
+      messages_.error(file.string() + ": another program changed this file, and the preset has edits that are not saved; save them under "
+                                      "another name, or take the preset from its file (File)");
+  } catch (const std::exception& error) {
+    messages_.error(error);
+  }
+}
+
+void DocumentFiles::update()
+{
+  const UndoStack* edits = document_.edits();
+  if (const auto& now = edits ? edits->shared() : nullptr; now != watched_) {
+    watched_ = now;
+    const auto opened = edits ? edits->state().opened : nullptr;
+    watch_.watch(now, std::exchange(watched_from_, opened) != opened);
+  }
+  const std::vector<std::filesystem::path> changed = watch_.take_changed();
+  if (changed.empty() || !edits) return;
+  bool scene_changed = false;
+  for (const std::filesystem::path& file : changed) {
+    if (file == std::filesystem::path(document_.preset()->source)) {
+      follow_own_file();
+      continue;
+    }
+    scene_changed = true;
+    messages_.note(file.filename().string() + " was changed on disk: the run begins again" +
+                   (sweep_.active() ? " when the sweep is over" : ""));
+  }
+  if (scene_changed) run_.start_with_new_files(*edits);
+}
+
 } // namespace nephroid::ui

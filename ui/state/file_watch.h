@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells when the preset's file, or one that the preset names, was changed by another program. Looks on a thread of its own: no frame waits
-// for a disk.
+// The preset's file and those that it names, where another program writes them: the preset or its run follows. A thread of its own looks
+// for changes: no frame waits for a disk.
 #pragma once
 #include "preset/preset.h"
+#include "ui/state/document.h"
+#include "ui/state/sweep_queue.h"
 
 #include <condition_variable>
 #include <filesystem>
@@ -16,6 +18,7 @@
 
 namespace nephroid::ui {
 
+/// Tells which files of a preset were changed.
 class FileWatch {
 public:
   FileWatch();
@@ -42,6 +45,29 @@ private:
   std::optional<std::filesystem::file_time_type> read_at_; ///< and when its files were read, where they were
   std::vector<std::filesystem::path> found_;
   std::jthread thread_; ///< last: it uses the others
+};
+
+/// Takes over what was changed.
+class DocumentFiles {
+public:
+  /// All outlive it.
+  DocumentFiles(Document& document, RunInHand& run, const SweepQueue& sweep, Messages& messages)
+      : document_(document), run_(run), sweep_(sweep), messages_(messages)
+  {
+  }
+  /// Once a frame. Never waits for the disk but to read a preset that was changed.
+  void update();
+  void carry_out(const command::ReloadPreset&);
+
+private:
+  void follow_own_file();
+
+  Document& document_;
+  RunInHand& run_;
+  const SweepQueue& sweep_;
+  Messages& messages_;
+  FileWatch watch_;
+  std::shared_ptr<const preset::Preset> watched_, watched_from_; ///< whose files are watched, and as it was opened
 };
 
 } // namespace nephroid::ui

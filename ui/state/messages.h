@@ -2,6 +2,7 @@
 // What the program has to say to a person: errors stay until they are dismissed, notes go by themselves.
 #pragma once
 #include "base/error.h"
+#include "ui/state/commands.h"
 
 #include <algorithm>
 #include <chrono>
@@ -35,6 +36,8 @@ public:
     const auto* known = dynamic_cast<const Error*>(&error);
     say(true, error.what(), known ? known->kind() : ErrorKind::failed);
   }
+  void carry_out(const command::Dismiss& c) { dismiss(c.message); }
+  void carry_out(const command::Report& c) { c.error ? error(c.line) : note(c.line); }
   void dismiss(std::uint64_t id)
   {
     std::erase_if(messages_, [&](const Message& m) { return m.id == id; });

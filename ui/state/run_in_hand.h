@@ -11,7 +11,6 @@
 #include "ui/state/messages.h"
 #include "ui/state/undo.h"
 
-#include <any>
 #include <array>
 #include <chrono>
 #include <functional>
@@ -23,11 +22,20 @@
 
 namespace nephroid::ui {
 
+struct ViewedScene;
+struct SeenByGlass;
+
+/// What panels keep of a run's loaded scene; null where the preset has no such panel.
+struct SceneFacts {
+  std::shared_ptr<const ViewedScene> view;
+  std::shared_ptr<const SeenByGlass> spectra;
+};
+
 struct NewRun {
   std::unique_ptr<job::Job> job;
   std::shared_ptr<const plan::Plan> plan;
   std::shared_ptr<const measure::Reference> reference; ///< what it is measured against; null where there is none
-  std::vector<std::any> seen = {};                     ///< what panels looked for in the loaded scene: RunInHand::seen
+  SceneFacts scene_facts = {};
   compute::DeviceInfo device = {};                     ///< that it works on
   std::optional<double> white = {};                    ///< of the run, where the preset's is to be fitted
 };
@@ -72,14 +80,14 @@ public:
     start(edits);
   }
   /// The preset was edited: the run follows with the next start_if_wanted(). live: the gesture still lasts.
-  void follow_edit(bool live);
-  void end_gesture() { gesture_lasts_ = false; }
+  void follow_edit(bool live = false);
+  void carry_out(const command::EndGesture&) { gesture_lasts_ = false; }
   void cancel();
   /// A run of another preset, called `name`, in place of the present one's: whatever edits and files ask for waits until take_back().
   void lend(std::shared_ptr<const preset::Preset> preset, std::string name);
   /// The run of the present preset starts again. edits: null where none is open.
   void take_back(const UndoStack* edits);
-  void pause(bool on) { worker_.pause(on); }
+  void carry_out(const command::Pause& c) { worker_.pause(c.on); }
   /// As job::Worker's.
   void watch_spectrum(std::optional<std::array<int, 2>> pixel) { worker_.watch_spectrum(pixel); }
   /// Once a frame: takes the newest snapshot, and starts the run that edits ask for. edits: null before a preset is opened.
@@ -113,14 +121,8 @@ public:
   std::optional<double> fitted_white() const { return preset_ && !lent_ && !restart_wanted_ ? preset_->white : std::nullopt; }
   /// Whether the preset of the run has a reference, which may still be on its way.
   bool has_reference() const { return preset_ && preset_->reference; }
-  /// What a panel looked for in the loaded scene of that run (shell/panels.h); null as plan(), and where the run's source did not look.
-  template <class T>
-  std::shared_ptr<const T> seen() const
-  {
-    for (const std::any& sight : newest_.seen)
-      if (const auto* found = std::any_cast<std::shared_ptr<const T>>(&sight)) return *found;
-    return nullptr;
-  }
+  /// Of that run's scene; empty as plan(), and where the run's source takes none.
+  const SceneFacts& scene_facts() const { return newest_.scene_facts; }
 
 private:
   struct Arrival;

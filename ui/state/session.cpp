@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <stdexcept>
 
 namespace nephroid::ui {
 namespace {
@@ -22,7 +23,12 @@ using PresetPtr = std::shared_ptr<const preset::Preset>;
 constexpr int session_version = 1, settings_version = 2;
 constexpr std::size_t most_panels = 64;
 
-constexpr std::array tone_names{"standard", "filmic", "false_colour"}; ///< in the order of ToneCurve
+struct NamedTone {
+  ToneCurve curve;
+  std::string_view name;
+};
+constexpr std::array tone_names{NamedTone{ToneCurve::standard, "standard"}, NamedTone{ToneCurve::filmic, "filmic"},
+                                NamedTone{ToneCurve::false_colour, "false_colour"}};
 
 /// Dear ImGui trusts what it reads: whatever it did not write itself is refused here.
 std::string checksum(const std::string& ini) { return fmt::format("{:016x}", hash_of(ini)); }
@@ -44,9 +50,9 @@ ViewSettings read_view_settings(const Json& value)
 {
   ViewSettings view_settings;
   view_settings.exposure_stops = within(value.at("exposure_stops"), -20, 20);
-  const auto tone = std::ranges::find(tone_names, value.value("tone", std::string(tone_names[0])));
+  const auto tone = std::ranges::find(tone_names, value.value("tone", "standard"), &NamedTone::name);
   if (tone == tone_names.end()) throw std::out_of_range("there is no such tone curve");
-  view_settings.tone = static_cast<ToneCurve>(tone - tone_names.begin());
+  view_settings.tone = tone->curve;
   if (value.contains("false_colour"))
     view_settings.false_colour = valid_range({value["false_colour"].at(0).get<double>(), value["false_colour"].at(1).get<double>()});
   view_settings.fit = value.at("fit").get<bool>();
@@ -190,7 +196,7 @@ std::string SessionText::of(const Session& session)
     const PresetPtr before_preset = before ? before->preset : nullptr;
     for (const auto& entry : known_)
       if (entry->preset == preset && entry->before == before_preset) return used.emplace_back(entry);
-    Json json = Json::parse(preset::to_json(*preset));
+    Json json = preset::as_json(*preset);
     Json patch = before ? Json::diff(before->json, json) : Json();
     return used.emplace_back(std::make_shared<const Known>(Known{preset, before_preset, std::move(json), std::move(patch)}));
   };
@@ -199,7 +205,7 @@ std::string SessionText::of(const Session& session)
             {"closed", session.closed},
             {"look",
              {{"exposure_stops", view_settings.exposure_stops},
-              {"tone", tone_names[static_cast<std::size_t>(view_settings.tone)]},
+              {"tone", std::ranges::find(tone_names, view_settings.tone, &NamedTone::curve)->name},
               {"fit", view_settings.fit},
               {"zoom", view_settings.zoom},
               {"centre", view_settings.centre}}},

@@ -2,8 +2,8 @@
 // What the window is at, as a file: the preset with its undo, how it is looked at, the pinned runs. A window that was killed is opened
 // again with it. And its settings, as another. ui/state/session_keeper.h writes and finds the files.
 #pragma once
+#include "ui/state/view_state.h"
 #include "ui/state/commands.h"
-#include "ui/state/context.h"
 #include "ui/state/undo.h"
 
 namespace nephroid::ui {

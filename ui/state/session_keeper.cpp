@@ -130,7 +130,7 @@ void SessionKeeper::load_settings(Workbench& workbench) const
   const fs::path file = folder_ / settings_name;
   if (folder_.empty() || !is_there(file)) return;
   try {
-    workbench.set_settings(parse_settings(read_limited(file), file.string()));
+    workbench.setup().set_settings(parse_settings(read_limited(file), file.string()));
   } catch (const std::exception& error) {
     workbench.apply({command::Report{error.what()}});
   }
@@ -171,7 +171,7 @@ SessionKeeper::Work SessionKeeper::work_of(const Workbench& workbench) const
   work.pins = workbench.comparing().pinned().all();
   for (const PinnedRun& run : work.pins)
     work.session.pins.push_back({run.is_run() ? fmt::format("pin-{}", run.id) : run.file.string(), run.name, run.colour, run.shown});
-  work.settings = workbench.settings();
+  work.settings = workbench.setup().settings();
   if (workbench.works_on_files()) return work; // the pins of the session before may still be being read
   work.replaces = taken_over_;
   work.lock = taken_over_lock_;

@@ -7,11 +7,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace nephroid::ui {
 
-void SweepQueue::start(const preset::Preset& preset, const preset::Sweep& sweep)
+void SweepQueue::carry_out(const command::StartSweep&)
 {
+  if (!document_.preset() || active_) return;
+  const preset::Preset& preset = *document_.preset();
+  const preset::Sweep& sweep = document_.edits()->sweep();
   const std::string place = preset.source + "#/sweep";
   if (sweep.empty()) throw bad_input(place, "no field is swept", "expected one with its values", "add one in the panel Runs");
   if (const double count = preset::count_runs(sweep); count > static_cast<double>(most_runs))
@@ -32,46 +36,46 @@ void SweepQueue::start(const preset::Preset& preset, const preset::Sweep& sweep)
   active_ = true;
 }
 
-void SweepQueue::begin_next(RunInHand& run, const UndoStack* edits)
+void SweepQueue::begin_next()
 {
   const auto next = std::ranges::find(runs_, State::waiting, &QueuedRun::state);
   if (next == runs_.end()) {
     active_ = false;
-    if (std::exchange(lent_, false)) run.take_back(edits);
+    if (std::exchange(lent_, false)) run_.take_back(document_.edits());
     return;
   }
   next->state = State::running;
   at_ = static_cast<std::size_t>(next - runs_.begin());
   lent_ = true;
-  run.lend(next->preset, next->name);
+  run_.lend(next->preset, next->name);
 }
 
-void SweepQueue::stop(RunInHand& run, const UndoStack* edits)
+void SweepQueue::stop()
 {
   if (!std::exchange(active_, false)) return;
   for (QueuedRun& swept : runs_)
     if (swept.state == State::running || swept.state == State::waiting) swept.state = State::stopped;
-  if (std::exchange(lent_, false)) run.take_back(edits);
+  if (std::exchange(lent_, false)) run_.take_back(document_.edits());
 }
 
-void SweepQueue::update(RunInHand& run, Comparing& comparing, const UndoStack* edits)
+void SweepQueue::update()
 {
   if (!active_) return;
-  if (!lent_) return begin_next(run, edits);
+  if (!lent_) return begin_next();
   QueuedRun& now = runs_[at_];
-  const job::Status& status = run.status();
+  const job::Status& status = run_.status();
   switch (status.state) {
   case job::State::finished:
     now.state = State::done;
     now.part = 1;
-    if (run.snapshot()) comparing.pin(run_now(run));
-    return begin_next(run, edits);
+    if (run_.snapshot()) comparing_.pin(run_now(run_));
+    return begin_next();
   case job::State::failed:
     now.state = State::failed;
     now.why = status.error ? status.error->line() : "the run failed";
-    return begin_next(run, edits);
+    return begin_next();
   case job::State::cancelled:
-    return stop(run, edits);
+    return stop();
   default:
     now.part = status.progress.fraction;
   }

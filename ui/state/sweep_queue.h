@@ -4,7 +4,7 @@
 #pragma once
 #include "preset/read.h"
 #include "ui/state/comparing.h"
-#include "ui/state/run_in_hand.h"
+#include "ui/state/document.h"
 
 #include <memory>
 #include <string>
@@ -26,13 +26,19 @@ public:
     double part = 0; ///< 0..1 of a run that is running or was stopped
   };
 
+  /// All outlive it.
+  SweepQueue(const Document& document, RunInHand& run, Comparing& comparing) : document_(document), run_(run), comparing_(comparing) {}
+
   /// Throws bad_input as preset::swept_runs, for no sweep and for more than most_runs; what is refused alone is a failed run. Nothing
   /// changes then.
-  void start(const preset::Preset& preset, const preset::Sweep& sweep);
-  /// The run in hand is of the present preset again; what is done stays pinned. edits: null where no preset is open.
-  void stop(RunInHand& run, const UndoStack* edits);
+  void carry_out(const command::StartSweep&);
+  void carry_out(const command::StopSweep&) { stop(); }
+  /// Without a sweep the run in hand is cancelled.
+  void carry_out(const command::Cancel&) { active_ ? stop() : run_.cancel(); }
+  /// The run in hand is of the present preset again; what is done stays pinned.
+  void stop();
   /// Once a frame, after RunInHand::update.
-  void update(RunInHand& run, Comparing& comparing, const UndoStack* edits);
+  void update();
 
   /// Whether runs are to come or one is running.
   bool active() const { return active_; }
@@ -42,8 +48,11 @@ public:
   std::string summary() const;
 
 private:
-  void begin_next(RunInHand& run, const UndoStack* edits);
+  void begin_next();
 
+  const Document& document_;
+  RunInHand& run_;
+  Comparing& comparing_;
   std::vector<QueuedRun> runs_;
   std::size_t at_ = 0; ///< which is running
   bool active_ = false, lent_ = false;

@@ -7,19 +7,26 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace nephroid::ui {
 namespace {
 
 struct NamedTone {
+  ToneCurve curve;
   const char *name, *help;
 };
-/// In the order of ToneCurve.
 constexpr std::array tones{
-    NamedTone{"as image.png", "sRGB, clipped at 1: the bytes of image.png"},
-    NamedTone{"filmic", "For a wide range: a soft shoulder up to 5.6 times white (Hable 2010), then sRGB"},
-    NamedTone{"false colour", "The luminance as a colour, on a logarithmic scale in W/m2/sr. Exposure plays no part."},
+    NamedTone{ToneCurve::standard, "as image.png", "sRGB, clipped at 1: the bytes of image.png"},
+    NamedTone{ToneCurve::filmic, "filmic", "For a wide range: a soft shoulder up to 5.6 times white (Hable 2010), then sRGB"},
+    NamedTone{ToneCurve::false_colour, "false colour",
+              "The luminance as a colour, on a logarithmic scale in W/m2/sr. Exposure plays no part."},
 };
 
 void draw_layer_choice(const Context& context, WidgetPlaces& places)
@@ -36,12 +43,12 @@ void draw_layer_choice(const Context& context, WidgetPlaces& places)
 void draw_tone_choice(const Context& context, WidgetPlaces& places)
 {
   ViewSettings view_settings = context.view_settings();
-  const auto now = static_cast<std::size_t>(view_settings.tone);
+  const ToneCurve now = view_settings.tone;
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
-  Combo list("##tone", tones.at(now).name, &places, "tone");
-  for (std::size_t i = 0; i < tones.size(); ++i)
-    if (list.entry(tones[i].name, i == now, tones[i].help)) {
-      view_settings.tone = static_cast<ToneCurve>(i);
+  Combo list("##tone", std::ranges::find(tones, now, &NamedTone::curve)->name, &places, "tone");
+  for (const NamedTone& tone : tones)
+    if (list.entry(tone.name, tone.curve == now, tone.help)) {
+      view_settings.tone = tone.curve;
       context.push(command::SetViewSettings{view_settings});
     }
 }
@@ -80,8 +87,13 @@ void draw_range_choice(const Context& context, const LuminanceRange& shown, Widg
     context.note("false colour: the range needs 0 < low < high");
 }
 
-/// In the order of measure::DifferenceMetric.
-constexpr std::array metric_names{"CIELAB distance", "|a - b|", "relative |a - b|", "(a - b)^2", "luminance a - b", "FLIP"};
+using Metric = measure::DifferenceMetric;
+constexpr std::array<std::pair<Metric, const char*>, 6> metric_names{{{Metric::lab, "CIELAB distance"},
+                                                                      {Metric::absolute, "|a - b|"},
+                                                                      {Metric::relative, "relative |a - b|"},
+                                                                      {Metric::square, "(a - b)^2"},
+                                                                      {Metric::luminance, "luminance a - b"},
+                                                                      {Metric::flip, "FLIP"}}};
 
 void draw_shown_choice(const Context& context, WidgetPlaces& places)
 {
@@ -109,8 +121,8 @@ void draw_metric_choice(const Context& context)
   const Comparison& comparison = context.comparing.comparison();
   ImGui::SetNextItemWidth(ImGui::GetFontSize() * 10);
   Combo list("##difference metric", metric_name(comparison.metric));
-  for (std::size_t i = 0; i < metric_names.size(); ++i)
-    if (const auto metric = static_cast<measure::DifferenceMetric>(i); list.entry(metric_names[i], metric == comparison.metric))
+  for (const auto& [metric, name] : metric_names)
+    if (list.entry(name, metric == comparison.metric))
       context.push(command::ShowDifference{true, metric, 0}); // the values of another metric have another size
 }
 
@@ -273,7 +285,7 @@ std::string metrics_as_text(const Context& context)
   return text;
 }
 
-const char* metric_name(measure::DifferenceMetric metric) { return metric_names.at(static_cast<std::size_t>(metric)); }
+const char* metric_name(Metric metric) { return std::ranges::find(metric_names, metric, &std::pair<Metric, const char*>::first)->second; }
 
 void draw_comparison_bar(const Context& context, WidgetPlaces& places)
 {

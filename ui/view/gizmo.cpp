@@ -140,7 +140,7 @@ void draw_box(const Pinhole& pinhole, const glm::dvec3& middle, const glm::dmat3
 
 void draw_object_box(const Context& context, const Pinhole& pinhole, std::size_t index)
 {
-  const auto box = local_box(context.run.seen<ViewedScene>().get(), *context.preset(), index);
+  const auto box = local_box(context.run.scene_facts().view.get(), *context.preset(), index);
   if (!box) return;
   const preset::Transform& transform = context.preset()->scene.objects[index].transform;
   const glm::dmat3 turn = scene::rotation(transform.rotate_deg);
@@ -196,7 +196,7 @@ void Gizmo::draw(const Context& context, const Pinhole& pinhole, const Canvas& c
   places_.reset();
   const Selection selection = context.selection();
   if (drag_ && (drag_->selection != selection || !context.view_state.handles.shown)) end_drag(context);
-  const auto grip = context.preset() ? grip_of(*context.preset(), selection, context.run.seen<ViewedScene>().get()) : std::nullopt;
+  const auto grip = context.preset() ? grip_of(*context.preset(), selection, context.run.scene_facts().view.get()) : std::nullopt;
   if (!grip || !context.view_state.handles.shown) return;
   const Handles& handles = context.view_state.handles;
   const GizmoFrame frame = drag_ ? drag_->frame : GizmoFrame{pinhole, grip->at, pinhole.depth(grip->at)};
@@ -339,7 +339,7 @@ void SceneOverlay::click(const Context& context, const Point& at) const
     selection = {Selection::Kind::light, i};
   }
   if (selection.kind == Selection::Kind::nothing) {
-    const auto seen = context.run.seen<ViewedScene>();
+    const auto seen = context.run.scene_facts().view;
     if (!seen) return; // no run of the preset was ready yet: nobody knows what is there
     const Ray ray = pinhole_->ray(at);
     const bool inside = at[0] >= pinhole_->corner[0] && at[1] >= pinhole_->corner[1] && at[0] < pinhole_->corner[0] + pinhole_->size[0] &&

@@ -88,10 +88,7 @@ Axes axes(const preset::Camera& camera)
   return a;
 }
 
-nlohmann::ordered_json camera_fields(const preset::Preset& preset)
-{
-  return nlohmann::ordered_json::parse(preset::to_json(preset)).at("scene").at("camera");
-}
+nlohmann::ordered_json camera_fields(const preset::Preset& preset) { return preset::as_json(preset).at("scene").at("camera"); }
 
 } // namespace
 
@@ -130,14 +127,14 @@ std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placemen
   return pinhole;
 }
 
-std::any ViewedScene::look(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded)
+void ViewedScene::take(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded, SceneFacts& facts)
 {
   auto seen = std::make_shared<ViewedScene>();
   seen->loaded = loaded;
   const scene::Scene& scene = loaded->scene;
   if (scene.objects.size() == preset.scene.objects.size()) seen->objects = preset.scene.objects;
   for (std::size_t i = 0; i < seen->objects.size(); ++i) seen->boxes.push_back(box_of(scene, scene.objects[i], seen->objects[i].transform));
-  return std::shared_ptr<const ViewedScene>(std::move(seen));
+  facts.view = std::move(seen);
 }
 
 std::optional<std::size_t> object_at(const ViewedScene& seen, const preset::Preset& preset, const Ray& ray)

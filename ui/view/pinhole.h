@@ -6,6 +6,7 @@
 #include "preset/preset.h"
 #include "run/prepare.h"
 #include "scene/scene.h"
+#include "ui/state/run_in_hand.h"
 #include "ui/view/placement.h"
 
 #include <glm/glm.hpp>
@@ -36,14 +37,13 @@ struct Pinhole {
 /// camera that sees nothing: at its own target, or looking along its up.
 std::optional<Pinhole> make_pinhole(const preset::Camera& camera, const Placement& placement, const std::array<int, 2>& shown);
 
-/// What the View keeps of a loaded scene (RunInHand::seen).
+/// What the View keeps of a loaded scene.
 struct ViewedScene {
   std::shared_ptr<const run::LoadedScene> loaded;
   std::vector<preset::Object> objects; ///< as the preset had them when it was loaded
   std::vector<scene::Bounds> boxes;    ///< of each object, before its transform
 
-  /// A std::shared_ptr<const SeenScene>, as RunInHand::seen finds it.
-  static std::any look(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded);
+  static void take(const preset::Preset& preset, const std::shared_ptr<const run::LoadedScene>& loaded, SceneFacts& facts);
 };
 
 /// The first object that the ray hits, an index into scene.objects. An object that was moved, turned or scaled since the scene was

@@ -63,8 +63,8 @@ struct PanelEntry {
   std::string_view engine = ""; ///< whose presets it is for; empty: every preset
   /// wavelengths: the axis that plots of several panels share; outlives the panel.
   std::unique_ptr<Panel> (*make)(WavelengthAxis& wavelengths) = nullptr;
-  /// What it wants to know of the loaded scene; called on the thread that made a run ready. Null: nothing.
-  std::any (*look_around)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&) = nullptr;
+  /// Takes what the panel keeps of a loaded scene, on the thread that made the run ready. Null: it keeps nothing.
+  void (*take_facts)(const preset::Preset&, const std::shared_ptr<const run::LoadedScene>&, SceneFacts&) = nullptr;
   /// Whether it is for a preset, where the engine does not decide on that. Null: it does.
   bool (*serves)(const preset::Preset&) = nullptr;
   /// The engine whose presets are opened with this tab in front; empty: none.

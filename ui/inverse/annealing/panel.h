@@ -9,6 +9,8 @@
 #include "ui/widgets/panel.h"
 #include "ui/widgets/plots.h"
 
+#include <map>
+
 struct ImVec2;
 
 namespace nephroid::ui {

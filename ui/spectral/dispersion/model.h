@@ -11,6 +11,8 @@
 #include "preset/preset.h"
 #include "ui/widgets/rows.h"
 
+#include <map>
+
 namespace nephroid::ui {
 
 using ControlPoint = Row; ///< (nm, n)

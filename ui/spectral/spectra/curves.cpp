@@ -105,7 +105,7 @@ std::vector<double> importance_of(const photons::Settings& settings, const Spect
 
 } // namespace
 
-std::any SeenByGlass::look(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
+std::shared_ptr<const SeenByGlass> SeenByGlass::of(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh)
 {
   auto seen = std::make_shared<SeenByGlass>();
   for (const scene::Material& material : scene.materials) seen->materials.push_back(material.name);
@@ -113,7 +113,7 @@ std::any SeenByGlass::look(const preset::Preset& preset, const scene::Scene& sce
   seen->whereabouts = photons::whereabouts(spectral::settings(preset), scene, bvh);
   seen->settings = spectral::settings(preset);
   seen->clusters = photons::scene_clusters(spectral::settings(preset), scene);
-  return std::shared_ptr<const SeenByGlass>(std::move(seen));
+  return seen;
 }
 
 std::int64_t Spectra::iterations() const

@@ -11,7 +11,7 @@
 namespace nephroid::ui {
 
 /// What u(lambda) and clusters hang on of where a loaded scene's things are. It takes meshes and rays, so it comes with a run
-/// (RunInHand::seen); panels do the rest.
+/// (SceneFacts); panels do the rest.
 struct SeenByGlass {
   std::vector<std::string> materials;      ///< names of Scene::materials, in whose order the shares are
   std::optional<scene::Light> environment; ///< where it is a light
@@ -20,9 +20,8 @@ struct SeenByGlass {
   std::vector<std::vector<int>> clusters; ///< and what it is grouped into by them
   bool operator==(const SeenByGlass&) const = default;
 
-  /// A std::shared_ptr<const SeenByGlass>, as RunInHand::seen finds it. On the thread that made the run ready. Rays are traced only where
-  /// the preset's effort asks for them.
-  static std::any look(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
+  /// Traces rays only where the preset's effort asks for them.
+  static std::shared_ptr<const SeenByGlass> of(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh);
 };
 
 struct LightCurve {

@@ -52,7 +52,7 @@ std::string times(std::int64_t more, std::int64_t fewer)
 void SpectraPanel::draw(const Context& context)
 {
   places_.clear();
-  maker_.update(*context.preset(), context.run.seen<SeenByGlass>());
+  maker_.update(*context.preset(), context.run.scene_facts().spectra);
   choose_light(*context.preset());
   draw_light(context);
   draw_switches();

@@ -8,6 +8,8 @@
 #include "ui/widgets/plots.h"
 #include "ui/widgets/theme.h"
 
+#include <set>
+
 namespace nephroid::ui {
 
 /// Which curves are shown.

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ui/state/document.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "engine/engine.h"
+#include "preset/change_engine.h"
+#include "ui/state/selection.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <exception>
+#include <utility>
+
+namespace nephroid::ui {
+namespace {
+
+/// With a map in place of its environment, as bright and as turned as that was. Whether the map can be read the run finds out.
+preset::Preset surrounded(preset::Preset preset, const std::string& map)
+{
+  std::error_code ignored;
+  preset::Environment environment;
+  if (const auto& before = preset.scene.environment) {
+    environment.radiance = before->radiance;
+    environment.rotate_deg = before->rotate_deg;
+    environment.lights = before->lights;
+  }
+  environment.file = std::filesystem::absolute(map, ignored).string();
+  preset.scene.environment = environment;
+  return preset;
+}
+
+} // namespace
+
+void Document::open(UndoStack edits)
+{
+  edits_.emplace(std::move(edits));
+  run_.start(*edits_);
+}
+
+void Document::close()
+{
+  edits_.reset();
+  run_.forget();
+  view_state_.view_settings = ViewSettings{};
+  view_state_.region.reset();
+  view_state_.lines.clear();
+  view_state_.selection = {};
+  carry_out(command::InspectPixel{});
+  services_.tasks.forget(meshes_);
+}
+
+bool Document::take_over(preset::WithSweep read)
+{
+  const std::string source = edits_->current().source;
+  const bool is_other_run = read.preset != edits_->current();
+  if (!is_other_run && read.sweep == edits_->sweep()) return false; // as where this window wrote it
+  edits_->push("reload " + std::filesystem::path(source).filename().string(), std::move(read.preset), std::move(read.sweep));
+  edits_->mark_saved(source);
+  if (is_other_run) run_.follow_edit();
+  return true;
+}
+
+void Document::take_picture(const std::string& file)
+{
+  if (!is_there(file)) throw bad_input(file, "there is no such picture");
+  preset::Preset edited = edits_->current();
+  engine::PictureEdit taken = engine::engine_of(edited).take_picture(edited, file);
+  edit({std::move(taken.edit), std::move(edited)});
+  services_.messages.note(std::move(taken.note));
+}
+
+void Document::read_mesh(const std::filesystem::path& file)
+{
+  services_.tasks.start(
+      meshes_, {"reading " + file.string(), TaskKind::request}, [file] { return read_dropped_mesh(file); },
+      [this](const DroppedMesh& mesh) { add_object(mesh); });
+}
+
+void Document::add_object(const DroppedMesh& mesh)
+{
+  if (!edits_) return;
+  WithMesh with_it = with_mesh(edits_->current(), mesh);
+  const std::size_t index = with_it.preset.scene.objects.size() - 1;
+  edit({"add " + mesh.file.filename().string(), std::move(with_it.preset)});
+  carry_out(command::Select{{Selection::Kind::object, index}});
+  services_.messages.note(with_it.note);
+}
+
+void Document::update()
+{
+  const auto white = run_.fitted_white();
+  if (!white || !edits_ || edits_->current().white) return;
+  edits_->fit_white(*white);
+  services_.messages.note(fmt::format("white {} fits the first picture", *white));
+}
+
+void Document::carry_out(const command::Edit& c)
+{
+  try {
+    edit(c);
+  } catch (const std::exception& error) {
+    services_.messages.error(error);
+    refused_edit_ = services_.messages.newest();
+  }
+}
+
+/// Throws bad_input where the preset could not be read again: a number is out of its range, however it came there, or two fields
+/// contradict each other.
+void Document::edit(const command::Edit& c)
+{
+  if (!edits_) return;
+  services_.messages.dismiss(refused_edit_); // while the mouse drags there is a new one at every move
+  preset::Preset edited = c.preset;
+  edited.provenance = {}; // what is wrong from now on is what was typed here, not what the file or an option gave
+  if (!c.was_read) preset::with_overrides(edited, {});
+  if (edited.settings.engine() != edits_->current().settings.engine()) note_left_out(edited.settings.engine());
+  edits_->push(c.label, std::move(edited), c.gesture);
+  run_.follow_edit(c.live);
+}
+
+/// What another engine takes away with the present one.
+void Document::note_left_out(std::string_view engine)
+{
+  auto json = preset::as_json(edits_->current());
+  if (const auto keys = preset::take_foreign(json, engine); !keys.empty())
+    services_.messages.note(preset::left_out_note(engine, keys) + " (Undo brings it back)");
+}
+
+void Document::carry_out(const command::SetSweep& c)
+{
+  if (!edits_ || c.sweep == edits_->sweep()) return;
+  edits_->push(c.label, edits_->current(), c.sweep);
+}
+
+/// The run follows, but where the step was about the sweep alone.
+void Document::step(bool (UndoStack::*by)())
+{
+  if (!edits_) return;
+  const preset::Preset before = edits_->current();
+  if ((*edits_.*by)() && before != edits_->current()) run_.adopt_or_start(*edits_);
+}
+
+void Document::carry_out(const command::Restart&)
+{
+  if (edits_) run_.start(*edits_);
+}
+
+void Document::carry_out(const command::Select& c)
+{
+  view_state_.selection = in_preset(c.selection, preset());
+  view_state_.nudged.at_s = command::Nudged{}.at_s; // another thing is another entry to undo
+}
+
+void Document::carry_out(const command::InspectPixel& c)
+{
+  view_state_.pixel = c.pixel;
+  if (c.pixel) view_state_.selection = {}; // the arrow keys are the pixel's now
+  run_.watch_spectrum(c.pixel);
+}
+
+/// Throws bad_input where there is no such file, or one that is no map: the dialog stays open then.
+void Document::carry_out(const command::OpenMap& c)
+{
+  if (!edits_) return;
+  if (kind_of(c.file) != FileKind::map) throw bad_input(c.file, "is no map of an environment", "expected a file .hdr or .exr");
+  if (!is_there(c.file)) throw bad_input(c.file, "there is no such file");
+  const std::string name = std::filesystem::path(c.file).filename().string();
+  edit({"surround with " + name, surrounded(edits_->current(), c.file)});
+  services_.messages.note(name + " is the environment");
+  services_.follow_ups.push_back(command::Ask{});
+}
+
+void Document::carry_out(const command::LoadDispersion& c)
+{
+  if (!edits_) throw bad_input(c.file, "is dispersion data, and no preset is open", {}, "open a preset with glass, then load it");
+  preset::Preset edited = edits_->current();
+  const std::string material = shown_dielectric(edited, view_state_.material);
+  if (material.empty())
+    throw bad_input(c.file, "is dispersion data, and this preset has no dielectric", "expected a material of type \"dielectric\"");
+  edited.scene.materials.at(material).dispersion = load_dispersion(c.file, edited.source);
+  const std::string name = std::filesystem::path(c.file).stem().string();
+  edit({"load " + name + " into " + material, std::move(edited)});
+  services_.messages.note("loaded " + name + " into the material '" + material + "'");
+}
+
+} // namespace nephroid::ui

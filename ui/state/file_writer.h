@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files that the window writes, mostly beside the frames: presets, pictures, reports, what a run found, imported scenes, the list of
+// recent files.
+#pragma once
+#include "ui/state/comparing.h"
+#include "ui/state/questions.h"
+#include "ui/state/recent_files.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace nephroid::ui {
+
+class FileWriter {
+public:
+  /// All outlive it.
+  FileWriter(Document& document, const RunInHand& run, const Comparing& comparing, const ViewState& view_state, Questions& questions,
+             Services& services)
+      : document_(document), run_(run), comparing_(comparing), view_state_(chosen), questions_(questions), services_(services)
+  {
+  }
+  const RecentFiles& recent() const { return recent_; }
+  /// From now on presets that are opened or saved are remembered there.
+  void remember(RecentFiles recent) { recent_ = std::move(recent); }
+  void add_recent(const std::filesystem::path& file);
+  /// Makes a preset of another program's scene, in a folder of its own beside it, and opens that.
+  void import_scene(const std::filesystem::path& file);
+  bool busy() const { return services_.tasks.busy(writes_); }
+  /// Once a frame.
+  void update();
+
+  void carry_out(const command::SavePreset& c);
+  void carry_out(const command::SavePicture& c);
+  void carry_out(const command::OpenResult& c);
+  void carry_out(const command::WriteReport& c);
+
+private:
+  PictureToSave shown_picture() const;
+  void save_thumbnail(const std::filesystem::path& preset);
+  void save(const std::filesystem::path& file, std::function<std::string()> write);
+
+  Document& document_;
+  const RunInHand& run_;
+  const Comparing& comparing_;
+  const ViewState& view_state_;
+  Questions& questions_;
+  Services& services_;
+  RecentFiles recent_;
+  TaskKey writes_, recent_writes_;
+};
+
+} // namespace nephroid::ui

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every part of the workbench has at hand: where it says things, what runs beside the frames, and what comes after a command.
+#pragma once
+#include "ui/state/commands.h"
+#include "ui/state/messages.h"
+#include "ui/state/tasks.h"
+
+namespace nephroid::ui {
+
+struct Services {
+  Messages messages;
+  TaskQueue tasks;
+  Commands follow_ups; ///< commands that a command or a finished task leads to; carried out next
+};
+
+} // namespace nephroid::ui
