@@ -90,7 +90,7 @@ void FileWriter::carry_out(const command::SavePicture& c)
 PictureToSave FileWriter::shown_picture() const
 {
   const Comparison& comparison = comparing_.comparison();
-  const double white = document_.preset() ? document_.preset()->white : 1;
+  const double white = document_.preset() ? document_.preset()->white.value_or(1) : 1;
   if (comparison.flip) return {comparing_.other_picture(), {}, view_state_.view_settings, white, comparing_.why_not()};
   if (!comparison.difference) return {comparing_.picture(), {}, view_state_.view_settings, white, comparing_.why_no_picture()};
   const auto& map = comparing_.difference();
