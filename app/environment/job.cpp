@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 class EnvironmentJob final : public job::Job {
 public:
   EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const mpi::RankContext& context)
-      : preset_(preset), width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
+      : context_(context), preset_(preset), width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
         sphere_white_(plan.render ? 0.2 : preset.white.value()), stop_(preset.stop),
         // Where there is no light the bake is all, and the preset's passes are directions.
         baking_(plan.task, plan.key, plan.bake_file, !plan.bakes,
@@ -271,6 +271,7 @@ private:
     snapshot.scalars.push_back({"lights", "count", static_cast<double>(lights.size())});
   }
 
+  mpi::RankContext context_;
   preset::Preset preset_; ///< the newest
   int width_, height_;
   double sphere_white_; ///< of the pictures of spheres

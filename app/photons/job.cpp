@@ -69,7 +69,7 @@ public:
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error))
       most_passes_ = preset.stop.passes.value_or(preset::default_passes);
     if (context.communicator().broadcast(context.is_cold())) { // rank 0 may have rendered a reference before
-      for (const TimedStage& s : passes_.stages()) s.stage->warm_up();
+      for (const TimedStage& s : passes_.stages()) s.stage->warm_up(context.communicator());
       world_.energy.fill_zero();
       world_.context.finish(); // a run that never comes to work must not end while kernels run
       context.set_warm();
@@ -115,7 +115,7 @@ public:
     if (development_.smooths()) snapshot.phases.emplace_back("smoothing", development_.smoothing_seconds());
     snapshot.progress = progress();
     const double batches = passes_.energy_batches();
-    Energy energy{balance_of(outcome_watts(world_.energy.read_sum(), world_.tables.energy_scale, batches)), {}};
+    Energy energy{balance_of(outcome_watts(world_.context.all_reduced_sum(world_.energy), world_.tables.energy_scale, batches)), {}};
     for (std::size_t s = 0; s < passes_.stages().size(); ++s)
       passes_.stages()[s].stage->report(passes_.complete(), passes_.had_turn(s), energy);
     add_energy(energy, snapshot);

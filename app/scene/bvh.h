@@ -15,6 +15,7 @@ namespace nephroid::scene {
 // The layout of kernels/tracing/bvh.h.
 inline constexpr std::size_t children_per_node = 8, triangles_per_block = 4, ellipsoids_per_block = 3, floats_per_node = 64,
                              floats_per_block = 40, floats_per_ellipsoid = 13;
+inline constexpr std::uint32_t no_primitive = ~0u; ///< an empty place of a block, or a ray that leaves none
 
 /// Layout is fixed by kernels/tracing/bvh.h, which has the description.
 struct Bvh {

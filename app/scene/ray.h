@@ -18,8 +18,6 @@ struct RayHit {
 /// Which primitives a ray can hit; the others it passes as if they were not there.
 using CountsPrimitive = std::function<bool(std::uint32_t primitive)>;
 
-inline constexpr std::uint32_t no_primitive = ~0u;
-
 /// One ray at a time, on the host and in double precision: for a few thousand rays before a run.
 /// The closest hit with 0 < t <= t_max, of equals the lowest primitive. direction: of any length but 0. A ray cannot pass between two
 /// triangles that share an edge. counts: empty for all. leaves: what the ray starts on, which it meets again only on the far side of an
