@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <random>
 #include <utility>
 
 namespace nephroid::inverse {
