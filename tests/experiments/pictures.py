@@ -69,7 +69,7 @@ def grazing_rainbow(s, name):
     """401 lines, 32 clusters, the same clusters stretched: as many photons each."""
     ways = {"lines": ["spectral.method=brute_force", "spectral.differentials=false"], "clusters": ["spectral.jitter=false", "spectral.differentials=false"],
             "stretched": ["spectral.differentials=true"]}
-    s.keep(name, [s.render(f"rainbow-{way}", "spectral/grazing-rainbow", *RAINBOW, *sets, size=(768, 48), passes=16) for way, sets in ways.items()], 1, 1)
+    s.keep(name, [s.render(f"rainbow-{way}", "spectral/grazing-rainbow", *RAINBOW, *sets, passes=16) for way, sets in ways.items()], 1, 1)
 
 
 def inverse_glass(s, name):
