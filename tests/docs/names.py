@@ -8,8 +8,8 @@ It reads the backticks of every page and of comments, and the files that a comme
 path exists if it is a file or folder, or the end of one's path (`cli/verb.h`), or a shipped preset (`spectral/prism`),
 or a file that the page itself gives, or if a string of the sources has its name (`image.exr`). A field of a preset
 (`spectral.jitter`) has to be in the schema. Of anything else, each word has to be a word of the sources' code or of a
-file's name; comments do not count. A name that is said to be in a file has to be in that one. Code that a page shows has
-to stand in the sources; `...` is anything. EXCEPTIONS has what is named though it is not ours.
+file's name; comments do not count. A name that is said to be in a file has to be in that one. Code that a page shows
+has to stand in the sources; `...` is anything. EXCEPTIONS has what is named though it is not ours.
 """
 
 import json
@@ -220,7 +220,7 @@ def page_failures(project, name, text):
 
 
 def comment_failures(project, name, comments):
-    """Beside backticks: files, and what only code writes so: names with an underscore, calls, members with their struct."""
+    """Beside backticks: files, and what only code writes so: names with an underscore, calls, members of structs."""
     for number, line in lines_of(comments):
         spans = set(re.findall(r"`([^`]+)`", line))
         spans |= set(re.findall(r"(?<![\w./*-])[A-Za-z][\w/-]*\.(?:h|cpp|cl|py|md)(?![\w.*])", line))
