@@ -4,12 +4,14 @@
 
     tests/docs/names.py
 
-Read are the backticks of every page, the backticks of comments, and the files of the project that a comment names with or without
-backticks. A path exists if it is a file or folder, or the end of one's path (`cli/verb.h`), or a shipped preset (`spectral/prism`), or a
-file that the page itself gives, or if a string of the sources has its name (`image.exr`). A field of a preset (`spectral.jitter`) has to
-be in the schema. Of anything else, each word has to be a word of the sources' code or of a file's name; comments do not count. A name that
-is said to be in a file has to be in that one. Code that a page shows has to stand in the sources; `...` is anything. EXCEPTIONS has what is named though it is not ours.
+It reads the backticks of every page and of comments, and the files that a comment names with or without backticks. A
+path exists if it is a file or folder, or the end of one's path (`cli/verb.h`), or a shipped preset (`spectral/prism`),
+or a file that the page itself gives, or if a string of the sources has its name (`image.exr`). A field of a preset
+(`spectral.jitter`) has to be in the schema. Of anything else, each word has to be a word of the sources' code or of a
+file's name; comments do not count. A name that is said to be in a file has to be in that one. Code that a page shows
+has to stand in the sources; `...` is anything. EXCEPTIONS has what is named though it is not ours.
 """
+
 import json
 import re
 import sys
@@ -17,7 +19,20 @@ from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = [".ci", ".github", "app", "cmake", "docs", "kernels", "packaging", "presets", "python", "tests", "third_party", "ui"]
+FOLDERS = [
+    ".ci",
+    ".github",
+    "app",
+    "cmake",
+    "docs",
+    "kernels",
+    "packaging",
+    "presets",
+    "python",
+    "tests",
+    "third_party",
+    "ui",
+]
 C_LIKE = {".h", ".cpp", ".cl", ".in"}
 HASHED = {".py", ".pyi", ".sh", ".cmake", ".txt", ".yml", ".toml"}
 ENDINGS = "h|cpp|cl|py|pyi|sh|json|md|txt|cmake|yml|in"
@@ -25,17 +40,38 @@ DEFINE = re.compile(r"(?<!\w)-D(?=[A-Z])")
 PLACEHOLDER = re.compile(r"(?<![A-Za-z])[A-Z]+(?![A-Za-z])")  # NAME_test.cpp
 # A word or a path, and why it is named though nothing of the project has it.
 EXCEPTIONS = {
-    "ccache": "a program to build with", "CMAKE_CXX_COMPILER_LAUNCHER": "CMake's",
-    "CL_CONFIG_CPU_VECTORIZER_MODE": "of Intel's OpenCL", "POCL_KERNEL_CACHE": "PoCL's", "pocl_cache_init_topdir": "PoCL's",
-    "CL/cl_ext.h": "Khronos'", "cl_khr_icd": "Khronos'", "imgui.h": "Dear ImGui's", "Shortcut": "Dear ImGui's", "InputText": "Dear ImGui's",
-    "kat_vectors": "a file of Random123", "RLIM_INFINITY": "POSIX'", "mca": "Open MPI's", "odls_base_sigkill_timeout": "Open MPI's",
-    "benchmark_filter": "Google Benchmark's", "gtest_output": "GoogleTest's", "Depends": "a field of a Debian package",
-    "openimageio": "a CMake package", "appstream": "a Debian package", "sunset": "a file of blender-data",
-    "jiter": "a misspelling that the page shows", "swing": "a preset that a reader may write",
-    "_16": "the end of a file's name, of numbers", "_2": "the end of a file's name, of numbers",
-    "kernels_tests": "cmake/NephroidTargets.cmake names it after its folder", "physics_tests": "the same",
-    "estimated_lab_rms": "a metric with its prefix", "*.nephroid.json": "what a reader's presets are called",
-    "SMALL_PRESET": "a preset of the reader's", "psi_lambda_theta": "a derivative", "rho_green": "a reflectance", "rho_red": "a reflectance",
+    "ccache": "a program to build with",
+    "CMAKE_CXX_COMPILER_LAUNCHER": "CMake's",
+    "CL_CONFIG_CPU_VECTORIZER_MODE": "of Intel's OpenCL",
+    "POCL_KERNEL_CACHE": "PoCL's",
+    "pocl_cache_init_topdir": "PoCL's",
+    "CL/cl_ext.h": "Khronos'",
+    "cl_khr_icd": "Khronos'",
+    "imgui.h": "Dear ImGui's",
+    "Shortcut": "Dear ImGui's",
+    "InputText": "Dear ImGui's",
+    "kat_vectors": "a file of Random123",
+    "RLIM_INFINITY": "POSIX'",
+    "mca": "Open MPI's",
+    "odls_base_sigkill_timeout": "Open MPI's",
+    "benchmark_filter": "Google Benchmark's",
+    "gtest_output": "GoogleTest's",
+    "Depends": "a field of a Debian package",
+    "openimageio": "a CMake package",
+    "appstream": "a Debian package",
+    "sunset": "a file of blender-data",
+    "jiter": "a misspelling that the page shows",
+    "swing": "a preset that a reader may write",
+    "_16": "the end of a file's name, of numbers",
+    "_2": "the end of a file's name, of numbers",
+    "kernels_tests": "cmake/NephroidTargets.cmake names it after its folder",
+    "physics_tests": "the same",
+    "estimated_lab_rms": "a metric with its prefix",
+    "*.nephroid.json": "what a reader's presets are called",
+    "SMALL_PRESET": "a preset of the reader's",
+    "psi_lambda_theta": "a derivative",
+    "rho_green": "a reflectance",
+    "rho_red": "a reflectance",
 }
 
 
@@ -50,15 +86,18 @@ def project_files():
 def split_c(text):
     """Code and comments of C++ or OpenCL C, both with the lines where they were."""
     parts = re.compile(r'R"(\w*)\((?:.|\n)*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|//[^\n]*|/\*(?:.|\n)*?\*/')
+
     def blank(found):
         return re.sub(r"[^\n]", " ", found)
+
     def is_comment(found):
         return found.startswith(("//", "/*"))
+
     code = parts.sub(lambda found: blank(found[0]) if is_comment(found[0]) else found[0], text)
     comments, at = "", 0
     for found in parts.finditer(text):
         if is_comment(found[0]):
-            comments += blank(text[at:found.start()]) + found[0]
+            comments += blank(text[at : found.start()]) + found[0]
             at = found.end()
     return code, comments
 
@@ -92,7 +131,13 @@ class Project:
             parts = name.split("/")
             self.ends |= {"/".join(parts[first:last]) for last in range(1, len(parts) + 1) for first in range(last)}
             self.words |= set(re.findall(r"\w+", name))
-            if file.suffix in C_LIKE or file.suffix in HASHED or file.suffix == ".json" or file.suffix == "" and file.parent != ROOT:
+            if (
+                file.suffix in C_LIKE
+                or file.suffix in HASHED
+                or file.suffix == ".json"
+                or file.suffix == ""
+                and file.parent != ROOT
+            ):
                 self.read(name, file)
 
     def read(self, name, file):
@@ -125,7 +170,9 @@ class Project:
     def has_word(self, word):
         if word in self.words or re.fullmatch(r"[A-Z]+", word):
             return True
-        begin, end = re.match(r"(\w+_)[A-Z]*$", word), re.match(r"[A-Z]*(_[a-z]+)$", word)  # frame_NNNN: "frame_{:04}"; *_stage
+        begin, end = re.match(r"(\w+_)[A-Z]*$", word), re.match(
+            r"[A-Z]*(_[a-z]+)$", word
+        )  # frame_NNNN: "frame_{:04}"; *_stage
         return any(begin and known.startswith(begin[1]) or end and known.endswith(end[1]) for known in self.words)
 
     def missing(self, text, page, given):
@@ -173,7 +220,7 @@ def page_failures(project, name, text):
 
 
 def comment_failures(project, name, comments):
-    """Beside backticks: files, and what only code writes so: a name with an underscore, a call, a member with its struct."""
+    """Beside backticks: files, and what only code writes so: names with an underscore, calls, members of structs."""
     for number, line in lines_of(comments):
         spans = set(re.findall(r"`([^`]+)`", line))
         spans |= set(re.findall(r"(?<![\w./*-])[A-Za-z][\w/-]*\.(?:h|cpp|cl|py|md)(?![\w.*])", line))
@@ -182,7 +229,12 @@ def comment_failures(project, name, comments):
         for span in sorted(spans):
             for lost in project.missing(span, name, ()):
                 yield f"{name}:{number}: `{lost}` is in no file and no code"
-    yield from misplaced(project, name, comments, r"([A-Za-z]\w+_\w+|[A-Z]\w*[a-z]\w*(?:::\w+)?) (?:\(|in )((?:\w+/)*\w+\.(?:h|cpp|cl))\)")
+    yield from misplaced(
+        project,
+        name,
+        comments,
+        r"([A-Za-z]\w+_\w+|[A-Z]\w*[a-z]\w*(?:::\w+)?) (?:\(|in )((?:\w+/)*\w+\.(?:h|cpp|cl))\)",
+    )
 
 
 def main():

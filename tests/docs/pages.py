@@ -27,8 +27,8 @@ def anchors(file):
     return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in heads}
 
 
-VERSIONS = {"pyproject.toml": r'^version = "(.+?)"', "CITATION.cff": r"^version: (.+)", "packaging/changelog": r"^nephroid \((.+?)\)",
-            "packaging/org.nephroid.Nephroid.metainfo.xml": r'<release version="(.+?)"'}
+VERSIONS = {"pyproject.toml": r'^version = "(.+?)"', "CITATION.cff": r"^version: (.+)",
+            "packaging/changelog": r"^nephroid \((.+?)\)", "packaging/org.nephroid.Nephroid.metainfo.xml": r'<release version="(.+?)"'}
 
 
 def other_versions():

@@ -4,15 +4,17 @@
 
     tests/experiments/pictures.py PROGRAM [--docs FOLDER] [--work FOLDER] [--small] [NAME...]
 
-PROGRAM is build/PRESET/bin/nephroid. NAME is a part of a picture's path below docs/ (`gallery`, `tours/`, `window-`); without one, all that this
-machine can make, an hour and more. What a picture needs beside the program, and what lacks here, is said.
+PROGRAM is build/PRESET/bin/nephroid. NAME is a part of a picture's path below docs/ (`gallery`, `tours/`, `window-`);
+without one, all that this machine can make, an hour and more. What a picture needs beside the program, and what lacks
+here, is said.
 
 --docs: where they go, the project's docs/ unless said. --work: keeps runs, so that one that was made is not made again.
---small: every step with tiny pictures, of which none is kept. tests/docs does that with some of them. It also fails where a picture of the docs is
-made by nothing here, so that none grows old unseen.
+--small: every step with tiny pictures, of which none is kept. tests/docs does that with some of them. It also fails
+where a picture of the docs is made by nothing here, so that none grows old unseen.
 
 ImageMagick puts pictures side by side; pictures of the window are taken under Xvfb. Look at each before you commit it.
 """
+
 import argparse
 import os
 import shutil
@@ -28,13 +30,28 @@ from tours import TOURS
 
 SIZE = 256
 SCENES = ["bunny", "bunny-arbitrary-2", "diamond-arbitrary-1", "enclosed-bunny", "cylinders", "newton", "prism-f10"]
-GALLERY = ["first-light", "spectral/brilliant", "spectral/ball-lens", "spectral/glass-in-a-room", "spectral/prism", "spectral/thesis/newton",
-           "spectral/thesis/cylinders", "spectral/thesis/diamond-arbitrary-1", "spectral/thesis/enclosed-bunny", "spectral/thesis/bunny-arbitrary-2",
-           "extremes/laser-beside-lamp", "extremes/nested-eight"]
+GALLERY = [
+    "first-light",
+    "spectral/brilliant",
+    "spectral/ball-lens",
+    "spectral/glass-in-a-room",
+    "spectral/prism",
+    "spectral/thesis/newton",
+    "spectral/thesis/cylinders",
+    "spectral/thesis/diamond-arbitrary-1",
+    "spectral/thesis/enclosed-bunny",
+    "spectral/thesis/bunny-arbitrary-2",
+    "extremes/laser-beside-lamp",
+    "extremes/nested-eight",
+]
 OTHERS = ["staircase", "rhodamine-6G", "rhodamine-6G-absorption", "F8BT", "F8BT-absorption"]
 RAINBOW = ["spectral.photons_per_pass=1048576"]
-PEERS = {"ball": ["mitsuba-ptracer", "luxcore-bidirectional", "pov-ray-photons"], "bunny": ["mitsuba-ptracer", "luxcore-bidirectional", "pov-ray-photons"],
-         "sky": ["mitsuba-path", "luxcore-path"], "room": ["mitsuba-path", "luxcore-path", "pov-ray-radiosity"]}
+PEERS = {
+    "ball": ["mitsuba-ptracer", "luxcore-bidirectional", "pov-ray-photons"],
+    "bunny": ["mitsuba-ptracer", "luxcore-bidirectional", "pov-ray-photons"],
+    "sky": ["mitsuba-path", "luxcore-path"],
+    "room": ["mitsuba-path", "luxcore-path", "pov-ray-radiosity"],
+}
 SIDE = {"geometry": f"{SIZE}x{SIZE}"}
 
 
@@ -44,13 +61,24 @@ def first_light(s, name):
 
 def gallery(s, name):
     """Shipped presets as they come, after 20 seconds."""
-    s.keep(name, [s.render("gallery-" + preset.replace("/", "-"), preset, seconds=20) for preset in GALLERY], 4, 1, **SIDE)
+    s.keep(
+        name, [s.render("gallery-" + preset.replace("/", "-"), preset, seconds=20) for preset in GALLERY], 4, 1, **SIDE
+    )
 
 
 def thesis_scenes(s, name):
     """Whole pictures, splats."""
     splats = ["sweep=null", "spectral.estimator=splat", "spectral.photons_per_pass=262144", "spectral.direct=true"]
-    pictures = [s.render(f"scene-{scene}", f"spectral/thesis/{scene}", *splats, size=(SIZE, SIZE), passes=64 if scene == "bunny" else 24) for scene in SCENES]
+    pictures = [
+        s.render(
+            f"scene-{scene}",
+            f"spectral/thesis/{scene}",
+            *splats,
+            size=(SIZE, SIZE),
+            passes=64 if scene == "bunny" else 24,
+        )
+        for scene in SCENES
+    ]
     pictures += [s.render(f"scene-{scene}", f"spectral/{scene}", *splats, passes=24) for scene in OTHERS]
     s.keep(name, pictures, 4, 0, **SIDE)
 
@@ -60,20 +88,41 @@ def smoothing(s, name):
     e = Experiments(s.program, s.folder)
     e.size = SIZE
     variants = [BRUTE, THESIS, PLAIN, OURS]
-    folders = [e.run(f"smoothing/{index}", "spectral/thesis/bunny", spectral, seconds=8)[2] for index, spectral in enumerate(variants)]
+    folders = [
+        e.run(f"smoothing/{index}", "spectral/thesis/bunny", spectral, seconds=8)[2]
+        for index, spectral in enumerate(variants)
+    ]
     folders.append(e.run("smoothing/long", "spectral/thesis/bunny", PLAIN, 120)[2])
     s.keep(name, [folder / "image.png" for folder in folders], 5, 1, quality=85, **SIDE)
 
 
 def grazing_rainbow(s, name):
     """401 lines, 32 clusters, the same clusters stretched: as many photons each."""
-    ways = {"lines": ["spectral.method=brute_force", "spectral.differentials=false"], "clusters": ["spectral.jitter=false", "spectral.differentials=false"],
-            "stretched": ["spectral.differentials=true"]}
-    s.keep(name, [s.render(f"rainbow-{way}", "spectral/grazing-rainbow", *RAINBOW, *sets, size=(768, 48), passes=16) for way, sets in ways.items()], 1, 1)
+    ways = {
+        "lines": ["spectral.method=brute_force", "spectral.differentials=false"],
+        "clusters": ["spectral.jitter=false", "spectral.differentials=false"],
+        "stretched": ["spectral.differentials=true"],
+    }
+    s.keep(
+        name,
+        [
+            s.render(f"rainbow-{way}", "spectral/grazing-rainbow", *RAINBOW, *sets, passes=16)
+            for way, sets in ways.items()
+        ],
+        1,
+        1,
+    )
 
 
 def inverse_glass(s, name):
-    s.keep(name, [s.render("shapes-as-glass", str(s.run("shapes", "inverse/shapes") / "view.json"), size=(1005, 600), seconds=120)])
+    s.keep(
+        name,
+        [
+            s.render(
+                "shapes-as-glass", str(s.run("shapes", "inverse/shapes") / "view.json"), size=(1005, 600), seconds=120
+            )
+        ],
+    )
 
 
 def inverse_sets(s, name):
@@ -92,18 +141,28 @@ def environment_film(s, name, film):
 
 
 def medium(s, name):
-    s.call(tests_of(s, "environment"), "--gtest_filter=*Rayleigh*", env=os.environ | {"NEPHROID_VOLUME_PICTURES": str(s.folder)})
+    s.call(
+        tests_of(s, "environment"),
+        "--gtest_filter=*Rayleigh*",
+        env=os.environ | {"NEPHROID_VOLUME_PICTURES": str(s.folder)},
+    )
     s.keep(name, sorted(s.folder.glob("*ayleigh*.png"))[:1])
 
 
 def python_spectral(s, name):
     module = Path(s.program).parents[1] / "python"
-    s.call(sys.executable, ROOT / "python" / "examples" / "spectral.py", env=os.environ | {"PYTHONPATH": str(module), "MPLBACKEND": "agg"})
+    s.call(
+        sys.executable,
+        ROOT / "python" / "examples" / "spectral.py",
+        env=os.environ | {"PYTHONPATH": str(module), "MPLBACKEND": "agg"},
+    )
     s.keep(name, [s.folder / "spectral-pictures.png"])
 
 
 def first_pictures(s, name):
-    s.script("after_edits.py", s.folder / "edits", Path(s.program).parents[1] / "tests" / "bench" / "nephroid_after_edit")
+    s.script(
+        "after_edits.py", s.folder / "edits", Path(s.program).parents[1] / "tests" / "bench" / "nephroid_after_edit"
+    )
     s.keep(name, [s.folder / "edits" / "strip-first-light-camera.jpg"])
 
 
@@ -115,8 +174,16 @@ def export_blender(s, name):
 def peers(s, name):
     s.script("peers.py", s.folder / "peers", *PEERS)
     made = s.folder / "peers"
-    s.keep(name, [made / scene / f"{way}-3.png" if way else "null:" for scene, ways in PEERS.items() for way in ["nephroid", *ways, *[""] * (3 - len(ways))]], 4,
-           **SIDE)
+    s.keep(
+        name,
+        [
+            made / scene / f"{way}-3.png" if way else "null:"
+            for scene, ways in PEERS.items()
+            for way in ["nephroid", *ways, *[""] * (3 - len(ways))]
+        ],
+        4,
+        **SIDE,
+    )
 
 
 def tests_of(s, group):
@@ -138,12 +205,34 @@ def by_tour(s, name, make):
     s.keep(name, pictures, columns, widest=640, quality=85)
 
 
-WINDOW = ["annealing-facet", "compared", "dispersion-dragged", "dispersion", "environment", "handles", "parameters", "spectra-relit", "spectra"]
-MAKERS = {"first-light.png": first_light, "grazing-rainbow.png": grazing_rainbow, "inverse-glass.png": inverse_glass, "gallery.jpg": gallery,
-          "thesis-scenes.jpg": thesis_scenes, "smoothing.jpg": smoothing, "inverse-sets.jpg": inverse_sets, "environment-shaded.png": environment_shaded,
-          "environment-turning.png": partial(environment_film, film="turning"), "environment-card.png": partial(environment_film, film="card"),
-          "medium.png": medium, "python-spectral.png": python_spectral, "first-pictures.jpg": first_pictures, "export-blender.jpg": export_blender,
-          "peers.jpg": peers}
+WINDOW = [
+    "annealing-facet",
+    "compared",
+    "dispersion-dragged",
+    "dispersion",
+    "environment",
+    "handles",
+    "parameters",
+    "spectra-relit",
+    "spectra",
+]
+MAKERS = {
+    "first-light.png": first_light,
+    "grazing-rainbow.png": grazing_rainbow,
+    "inverse-glass.png": inverse_glass,
+    "gallery.jpg": gallery,
+    "thesis-scenes.jpg": thesis_scenes,
+    "smoothing.jpg": smoothing,
+    "inverse-sets.jpg": inverse_sets,
+    "environment-shaded.png": environment_shaded,
+    "environment-turning.png": partial(environment_film, film="turning"),
+    "environment-card.png": partial(environment_film, film="card"),
+    "medium.png": medium,
+    "python-spectral.png": python_spectral,
+    "first-pictures.jpg": first_pictures,
+    "export-blender.jpg": export_blender,
+    "peers.jpg": peers,
+}
 MAKERS |= {f"tours/{make.__name__.replace('_', '-')}.jpg": partial(by_tour, make=make) for make in TOURS}
 MAKERS |= {f"session-{engine}.jpg": by_window_tests for engine in ("spectral", "environment", "inverse")}
 MAKERS |= {f"window-{panel}.png": by_window_tests for panel in WINDOW}
@@ -166,9 +255,14 @@ def main():
     arguments.add_argument("--work", type=Path)
     arguments.add_argument("--small", action="store_true")
     chosen = arguments.parse_intermixed_args()
-    shown = {str(file.relative_to(ROOT / "docs")) for file in (ROOT / "docs").rglob("*") if file.suffix in (".png", ".jpg")}
+    shown = {
+        str(file.relative_to(ROOT / "docs")) for file in (ROOT / "docs").rglob("*") if file.suffix in (".png", ".jpg")
+    }
     if shown != set(MAKERS):
-        sys.exit(f"pictures of the docs that nothing makes, or that are made and not there: {', '.join(sorted(shown ^ set(MAKERS)))}")
+        sys.exit(
+            "pictures of the docs that nothing makes, or that are made and not there: "
+            + ", ".join(sorted(shown ^ set(MAKERS)))
+        )
     failed = []
     names = [name for name in MAKERS if not chosen.names or any(part in name for part in chosen.names)]
     if not names:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What pictures.py and tours.py make the docs' pictures with: runs, windows, and several pictures side by side."""
+
 import json
 import shutil
 import subprocess
@@ -15,7 +16,7 @@ MOST_BYTES = 500_000
 
 
 class Studio:
-    """Works in a folder that has the files of the tours. small: tiny runs, and windows that do not wait; nothing is kept."""
+    """Works in a folder that has the files of the tours. small: tiny runs, windows that do not wait, nothing kept."""
 
     def __init__(self, program, folder, docs, small=False):
         self.program, self.folder, self.docs, self.small = str(Path(program).resolve()), Path(folder), docs, small
@@ -28,8 +29,13 @@ class Studio:
 
     def cut(self, preset, options):
         """Options that make a run of the preset tiny."""
-        plan = subprocess.run([self.program, "plan", preset, "--json", "--set", "sweep=null", "--set", "animation=null"], cwd=self.folder, check=True,
-                              capture_output=True, text=True)
+        plan = subprocess.run(
+            [self.program, "plan", preset, "--json", "--set", "sweep=null", "--set", "animation=null"],
+            cwd=self.folder,
+            check=True,
+            capture_output=True,
+            text=True,
+        )
         return options + CUT + CUT_OF_ENGINE[json.loads(plan.stdout.splitlines()[0])["engine"]]
 
     def run(self, name, preset, *sets, size=None, passes=None, seconds=None):
@@ -50,7 +56,18 @@ class Studio:
         """The folder of a preset with a sweep or an animation: small pictures of many runs."""
         if not (self.folder / preset).exists():
             cut = ["--set", "scene.camera.resolution=[64,64]"] if self.small else []
-            self.call(self.program, "run", preset, "-o", preset, "--set", "spectral.photons_per_pass=65536", "--passes", 1 if self.small else passes, *cut)
+            self.call(
+                self.program,
+                "run",
+                preset,
+                "-o",
+                preset,
+                "--set",
+                "spectral.photons_per_pass=65536",
+                "--passes",
+                1 if self.small else passes,
+                *cut,
+            )
         return self.folder / preset
 
     def script(self, name, *arguments):
@@ -63,9 +80,25 @@ class Studio:
     def window(self, name, preset, layout, *sets, until=1, pinned=()):
         target = self.folder / f"{name}.png"
         options = [word for value in sets for word in ("--set", value)]
-        options = self.cut(preset, options) + ["--frames", 3] if self.small else [*options, "--frames", 60, "--until", until]
-        self.call("xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", self.program, preset, *pinned, *options, "--layout", layout, "--size", "1120x700",
-                  "--screenshot", target)
+        options = (
+            self.cut(preset, options) + ["--frames", 3] if self.small else [*options, "--frames", 60, "--until", until]
+        )
+        self.call(
+            "xvfb-run",
+            "-a",
+            "-s",
+            "-screen 0 1600x1000x24",
+            self.program,
+            preset,
+            *pinned,
+            *options,
+            "--layout",
+            layout,
+            "--size",
+            "1120x700",
+            "--screenshot",
+            target,
+        )
         return target
 
     def keep(self, name, pictures, columns=1, gap=2, widest=None, quality=88, geometry=None):
@@ -79,8 +112,26 @@ class Studio:
         if len(pictures) == 1 and not widest and Path(pictures[0]).suffix == target.suffix:
             shutil.copyfile(pictures[0], target)
         else:
-            self.call("montage", *pictures, "-tile", f"{columns}x", "-geometry", f"{geometry or ''}+{gap}+{gap}", "-background", "black", "all.png")
-            self.call("convert", "all.png", *(["-resize", f"{widest}x>"] if widest else []), "-strip", "-quality", quality, target)
+            self.call(
+                "montage",
+                *pictures,
+                "-tile",
+                f"{columns}x",
+                "-geometry",
+                f"{geometry or ''}+{gap}+{gap}",
+                "-background",
+                "black",
+                "all.png",
+            )
+            self.call(
+                "convert",
+                "all.png",
+                *(["-resize", f"{widest}x>"] if widest else []),
+                "-strip",
+                "-quality",
+                quality,
+                target,
+            )
         print(f"{name}: {target.stat().st_size} bytes", flush=True)
         if target.stat().st_size > MOST_BYTES:
             sys.exit(f"{target} is larger than {MOST_BYTES} bytes")

@@ -1,22 +1,29 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How each picture of docs/tours is made, from the presets and files that stand in the tours themselves. pictures.py makes them."""
+"""How pictures.py makes each picture of docs/tours, from the presets and files that stand in the tours themselves."""
+
 GLASS = "scene.materials.glass.dispersion"
 STRIPES = ["spectral.differentials=false", "spectral.threshold_deg=1"]
 NEWTON = ["scene.camera.target=[9.3,0,0]", "scene.camera.fov_deg=30"]
 
 
 def dispersion_glasses(s):
-    return [s.render("flint", "first-light", size=(320, 320), passes=8),
-            s.render("crown", "first-light", f"{GLASS}=materials/N-BK7.yml", size=(320, 320), passes=8)], 2
+    return [
+        s.render("flint", "first-light", size=(320, 320), passes=8),
+        s.render("crown", "first-light", f"{GLASS}=materials/N-BK7.yml", size=(320, 320), passes=8),
+    ], 2
 
 
 def dispersion_window(s):
-    return [s.window("newton", "spectral/thesis/newton", "dispersion", "scene.camera.resolution=[256,256]", "stop.passes=8")], 1
+    return [
+        s.window("newton", "spectral/thesis/newton", "dispersion", "scene.camera.resolution=[256,256]", "stop.passes=8")
+    ], 1
 
 
 def dispersion_designed(s):
-    return [s.render("n-sf11", "spectral/thesis/newton", *NEWTON, size=(640, 200), passes=8),
-            s.render("wavy", "wavy", *NEWTON, size=(640, 200), passes=8)], 1
+    return [
+        s.render("n-sf11", "spectral/thesis/newton", *NEWTON, size=(640, 200), passes=8),
+        s.render("wavy", "wavy", *NEWTON, size=(640, 200), passes=8),
+    ], 1
 
 
 def hdri_lights(s):
@@ -54,8 +61,17 @@ def batch_sweep(s):
 
 
 def batch_window(s):
-    return [s.window("glasses-window", "glasses", "runs", "scene.camera.resolution=[256,256]", "spectral.photons_per_pass=65536", "stop.passes=4",
-                     pinned=sorted(runs_of_sweep(s)))], 1
+    return [
+        s.window(
+            "glasses-window",
+            "glasses",
+            "runs",
+            "scene.camera.resolution=[256,256]",
+            "spectral.photons_per_pass=65536",
+            "stop.passes=4",
+            pinned=sorted(runs_of_sweep(s)),
+        )
+    ], 1
 
 
 def batch_frames(s):
@@ -63,22 +79,52 @@ def batch_frames(s):
 
 
 def material_window(s):
-    return [s.window("heavy-window", "heavy-bunny", "dispersion", "scene.camera.resolution=[320,320]", "stop.passes=8")], 1
+    return [
+        s.window("heavy-window", "heavy-bunny", "dispersion", "scene.camera.resolution=[320,320]", "stop.passes=8")
+    ], 1
 
 
 def material_colour(s):
-    return [s.render("clear", "heavy-bunny", size=(320, 320), passes=8),
-            s.render("green", "heavy-bunny", f"{GLASS}=green.yml", size=(320, 320), passes=8)], 2
+    return [
+        s.render("clear", "heavy-bunny", size=(320, 320), passes=8),
+        s.render("green", "heavy-bunny", f"{GLASS}=green.yml", size=(320, 320), passes=8),
+    ], 2
 
 
 def option_stripes(s):
-    return [s.render(f"jitter-{on}", "spectral/thesis/newton", *NEWTON, *STRIPES, f"spectral.jitter={on}", size=(640, 200), passes=4)
-            for on in ("false", "true")], 1
+    return [
+        s.render(
+            f"jitter-{on}",
+            "spectral/thesis/newton",
+            *NEWTON,
+            *STRIPES,
+            f"spectral.jitter={on}",
+            size=(640, 200),
+            passes=4,
+        )
+        for on in ("false", "true")
+    ], 1
 
 
 def option_plan(s):
     return [s.window("plan", "first-light", "plan", "scene.camera.resolution=[256,256]", "stop.passes=8")], 1
 
 
-TOURS = [dispersion_glasses, dispersion_window, dispersion_designed, hdri_lights, hdri_glass, hdri_window, three_sheet, three_view, three_window,
-            batch_sweep, batch_window, batch_frames, material_window, material_colour, option_stripes, option_plan]
+TOURS = [
+    dispersion_glasses,
+    dispersion_window,
+    dispersion_designed,
+    hdri_lights,
+    hdri_glass,
+    hdri_window,
+    three_sheet,
+    three_view,
+    three_window,
+    batch_sweep,
+    batch_window,
+    batch_frames,
+    material_window,
+    material_colour,
+    option_stripes,
+    option_plan,
+]
