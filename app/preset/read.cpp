@@ -175,7 +175,8 @@ private:
 
   void read_number(const Json& json, const std::string& pointer, const Field& f, const Value& value) const
   {
-    if (!json.is_number() || !f.bounds.contain(json.get<double>())) refuse(json, pointer, expected_number(f));
+    const bool is_number = json.is_number() && std::isfinite(json.get<double>()); // a value of as_json may be none that a text can have
+    if (!is_number || !f.bounds.contain(json.get<double>())) refuse(json, pointer, expected_number(f));
     value.as<double>() = json.get<double>();
   }
 

@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <limits>
+
 namespace nephroid::presets_test {
 
 using preset::Preset;
@@ -24,6 +26,19 @@ TEST(PresetReading, WhatIsNotGivenHasItsDefault)
   expected.name = "a"; // from the file's name
   expected.source = "a.json";
   EXPECT_TRUE(preset::parse_preset(R"({"engine":"spectral"})", "a.json") == expected);
+}
+
+TEST(PresetReading, AValueReadsAsItsTextDoes)
+{
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const Preset p = test::random_preset(seed);
+    EXPECT_EQ(preset::as_json(p), preset::Json::parse(preset::to_json(p))) << seed;
+    EXPECT_TRUE(preset::read_json(preset::as_json(p), p.source) == preset::parse_preset(preset::to_json(p), p.source)) << seed;
+  }
+  Preset endless = parse(R"("name":"endless")");
+  endless.scene.camera.position[0] = std::numeric_limits<double>::infinity(); // which no text has
+  EXPECT_THROW(preset::with_overrides(endless, {}), Error);
+  EXPECT_EQ(preset::with_overrides(parse(R"("white":3)"), {"white=4"}).white, 4);
 }
 
 TEST(PresetReading, AWordStandsForAWhiteThatIsFitted)

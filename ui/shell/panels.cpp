@@ -120,11 +120,15 @@ FrontTabs begin_layout(const std::string& name, const preset::Preset& preset, un
   const bool fields_below = !front.engine.empty();
   const auto is_below = [&](const PanelEntry& tab) { return fields_below && (tab.name == "parameters" || tab.name == "presets"); };
   // The tabs are as wide as a plot with its legend needs and, where the window has room for that, as their titles; the picture has the
-  // rest.
+  // rest. The widest tabs give up the room of their close buttons first.
   const float most = 0.45f * width;
-  float titles = 3 * ImGui::GetFontSize(); // with the buttons of their dock
+  float longest = 0, titles = ImGui::GetFontSize();
+  std::vector<const char*> beside;
   for (const PanelEntry& tab : tabs())
-    if (serves(tab, preset) && !is_below(tab)) titles += ImGui::TabItemCalcSize(tab.title, true).x + ImGui::GetStyle().ItemInnerSpacing.x;
+    if (serves(tab, preset) && !is_below(tab)) beside.push_back(tab.title);
+  for (const char* title : beside) longest = std::max(longest, ImGui::TabItemCalcSize(title, false).x);
+  for (const char* title : beside)
+    titles += std::min(ImGui::TabItemCalcSize(title, true).x, longest) + ImGui::GetStyle().ItemInnerSpacing.x;
   const float tab_width = std::clamp(std::max(ImGui::GetFontSize() * 28, titles <= most ? titles : 0), 0.3f * width, most);
   ImGuiID at_right = 0, below = 0;
   ImGuiID picture = ImGui::DockBuilderSplitNode(dock_space, ImGuiDir_Left, 1 - tab_width / std::max(width, 1.0f), nullptr, &at_right);
