@@ -6,6 +6,7 @@
 #include "measure/metrics.h"
 #include "measure/read_picture.h"
 #include "optics/dispersion.h"
+#include "optics/dispersion_file.h"
 #include "photons/clusters/clusters.h"
 #include "photons/describe_settings.h"
 #include "preset/choices.h"

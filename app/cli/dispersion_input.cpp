@@ -2,6 +2,7 @@
 #include "cli/dispersion_input.h"
 
 #include "base/nearest.h"
+#include "optics/dispersion_file.h"
 #include "scene/materials.h"
 
 #include <fmt/format.h>

@@ -6,6 +6,7 @@
 #include "cli/run_target.h"
 #include "cli/verb.h"
 #include "engine/engine.h"
+#include "preset/animation.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "preset/settings_type.h"

@@ -2,6 +2,7 @@
 #include "cli/progress.h"
 
 #include "base/json_output.h"
+#include "job/pace.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

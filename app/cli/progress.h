@@ -2,6 +2,7 @@
 // How a run shows where it is: one live line on a terminal, a line every few seconds elsewhere, JSON lines with --json.
 #pragma once
 #include "job/job.h"
+#include "job/pace.h"
 
 #include <chrono>
 

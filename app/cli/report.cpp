@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `nephroid report`: one page over finished runs, error against time first.
+#include "report/report.h"
 #include "base/files.h"
 #include "cli/verb.h"
 #include "plan/plan.h"
-#include "report/data.h"
 
 #include <fmt/format.h>
 

@@ -6,9 +6,11 @@
 #include "base/interrupts.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
+#include "preset/animation.h"
+#include "preset/check.h"
 #include "preset/origins.h"
 #include "preset/read.h"
-#include "report/data.h"
+#include "report/report.h"
 #include "mpi/ranks.h"
 
 #include <fmt/format.h>

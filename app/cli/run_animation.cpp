@@ -3,6 +3,7 @@
 #include "base/json_output.h"
 #include "cli/run_target.h"
 #include "cli/verb.h"
+#include "preset/animation.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "run/run.h"

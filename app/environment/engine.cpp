@@ -2,6 +2,8 @@
 #include "environment/engine.h"
 
 #include "environment/checks.h"
+#include "environment/job.h"
+#include "environment/settings.h"
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run of engine 2: the object is baked, or its bake is read; then the scene is rendered.
+#include "environment/job.h"
+
 #include "base/error.h"
 #include "base/hashed_bytes.h"
 #include "environment/bake/bake.h"
@@ -8,6 +9,8 @@
 #include "environment/photons.h"
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
+#include "scene/camera_and_lights.h"
+#include "scene/move.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What engine 2 runs for a preset and what it leaves out.
-#include "plan/plan.h"
+#include "environment/plan.h"
 
 #include "environment/bake/bake.h"
 #include "environment/describe_settings.h"
-#include "environment/engine.h"
 #include "environment/sheet.h"
 #include "environment/view/renderer.h"
 #include "tracing/omissions.h"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The settings of engine 3 as the preset knows them, and what one of their fields cannot say alone. What needs a file read is refused by
 // the plan (layout.cpp, pictures/target.cpp).
-#include "inverse/describe_settings.h"
+#include "inverse/settings.h"
 
 #include "base/error.h"
+#include "inverse/describe_settings.h"
 #include "preset/settings_type.h"
 
 #include <fmt/format.h>

@@ -115,15 +115,6 @@ public:
   virtual bool adopt(const preset::Preset&) { return false; }
 };
 
-/// From how much was done and how long it took in this session: a resumed run goes at this session's speed.
-struct Pace {
-  double work_per_second = 0;
-  double seconds_left = -1; ///< -1: not known yet
-};
-Pace pace_between(const Progress& start, const Progress& now);
-/// "1.21 M photons/s": three figures, in the engine's units.
-std::string rate_text(const Pace& pace, const Units& units);
-
 /// What some jobs can tell besides their picture. It is made when somebody asks (Worker::watch_spectrum): what it is made of stays on the
 /// device.
 struct PixelSpectrum {

@@ -2,8 +2,8 @@
 #include "measure/difference.h"
 
 #include "base/parallel.h"
+#include "measure/flip.h"
 #include "measure/lab.h"
-#include "measure/perceptual.h"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,7 @@
 // takes in what m differs from its surroundings by; its variance is then w n + (1 - w)^2 v = w n + (1 - w) n = n, because d is
 // uncorrelated with m. The surroundings of a pixel with many photons must not count: beside a bright edge they would call black wrong. What
 // would make the truth negative is left out: CIELAB is steep there.
-#include "measure/measured_job.h"
+#include "measure/error_estimate.h"
 
 #include "base/summed_area.h"
 #include "optics/colour.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/perceptual.h"
+#include "measure/iw_ssim.h"
 
 #include "base/parallel.h"
 #include "measure/lab.h"
+#include "measure/laplacian_pyramid.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/perceptual.h"
+#include "measure/laplacian_pyramid.h"
 
 #include "base/parallel.h"
 

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "job/history.h"
 #include "job/job.h"
+#include "measure/error_estimate.h"
 #include "preset/choices.h"
 
 #include <fmt/format.h>

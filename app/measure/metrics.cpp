@@ -3,8 +3,9 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "measure/flip.h"
+#include "measure/iw_ssim.h"
 #include "measure/lab.h"
-#include "measure/perceptual.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,6 @@
 #include "optics/wavelength.h"
 
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <span>
@@ -63,11 +62,6 @@ DispersionCurve cauchy(std::span<const double> coefficients, double low_nm = 380
 DispersionCurve tabulated(std::span<const std::array<double, 2>> nm_n);
 /// Monotone cubic (Fritsch and Carlson 1980) through control points (nm, n), sorted and checked as above.
 DispersionCurve control_points(std::span<const std::array<double, 2>> nm_n);
-
-/// Any YAML file of the refractiveindex.info database. Throws bad_input naming FILE:LINE where it can.
-DispersionCurve load_dispersion(const std::filesystem::path& file);
-/// The same from text; source names it in messages and its stem becomes the curve's name.
-DispersionCurve parse_dispersion(const std::string& yaml, const std::filesystem::path& source);
 
 /// The dispersion formulas of the refractiveindex.info database ("Dispersion formulas" in its doc folder).
 inline constexpr int formula_count = 9;

@@ -2,10 +2,11 @@
 // Reads the YAML files of the refractiveindex.info database as they are: one of formulas 1-9, or tables of n, k or both, or a
 // constant, and any of these for n beside a table for k. Oddities that the database really holds are read, not refused:
 // rows out of order, wavelengths given twice (their mean counts), one row, blank rows, negative n or k, few coefficients.
+#include "optics/dispersion_file.h"
+
 #include "base/error.h"
 #include "base/files.h"
 #include "base/nearest.h"
-#include "optics/dispersion.h"
 #include "optics/tables.h"
 
 #include <fmt/format.h>

@@ -3,9 +3,7 @@
 #pragma once
 #include "compute/compute.h"
 #include "job/job.h"
-#include "photons/settings.h"
-#include "photons/tables/run_tables.h"
-#include "plan/plan.h"
+#include "photons/plan.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
@@ -16,21 +14,6 @@
 #include <vector>
 
 namespace nephroid::photons {
-
-struct RunPart; ///< plan_part.h
-
-/// What a run does, decided once, with the tables that this took.
-struct RunPlan : plan::Plan {
-  Settings settings;
-  RunTables tables;
-  std::vector<const RunPart*> parts; ///< that run; stages in the order of their turns in a pass
-  bool has_previews = true;         ///< whether a large picture is worked out coarsely first
-  bool runs(const RunPart& part) const;
-};
-
-/// Throws bad_input as make_run_tables does.
-RunPlan make_plan(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
-                  const tracing::LeaveOut& leave_out);
 
 /// A job with what an engine needs that knows more than photons do.
 class PhotonJob : public job::Job {

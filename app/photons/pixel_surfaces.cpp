@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/pixel_surfaces.h"
 
+#include "scene/ray.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

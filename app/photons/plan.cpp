@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What engine 1 runs for a preset and what it leaves out: its parts, each of which says its own, one after the other.
+// The parts of a run, each of which says its own, one after the other.
+#include "photons/plan.h"
+
 #include "base/counted.h"
 #include "photons/describe_settings.h"
-#include "photons/effort/importance.h"
-#include "photons/job.h"
+#include "photons/effort/effort.h"
 #include "photons/plan_part.h"
 #include "photons/relight/layer_light.h"
 #include "preset/choices.h"

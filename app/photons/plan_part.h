@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a run of engine 1 is made of: stages, and decisions that several stages share. Each says its own part of the plan, beside its work;
-// make_plan (engine.h) puts the parts together.
+// make_plan (plan.h) puts the parts together.
 #pragma once
 #include "photons/settings.h"
 #include "photons/tables/run_tables.h"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Values go into the preset as JSON, as those of --set and of a sweep do: what a field takes is said once, by its description.
-#include "preset/read.h"
+#include "preset/animation.h"
 
 #include "base/counted.h"
 #include "base/monotone_cubic.h"
+#include "preset/check.h"
 #include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/walks.h"

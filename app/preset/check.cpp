@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preset/read.h"
+#include "preset/check.h"
 
 #include "base/counted.h"
 #include "base/error.h"

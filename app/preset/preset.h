@@ -198,7 +198,7 @@ struct Track {
 /// The most frames an animation may have.
 inline constexpr int max_frames = 10000;
 
-/// Frames of one scene that changes (read.h). The preset's own fields are those of frame 0.
+/// Frames of one scene that changes (animation.h). The preset's own fields are those of frame 0.
 struct Animation {
   int frames = 24; ///< frame 0 to frame frames - 1
   double fps = 24; ///< frames a second
@@ -213,7 +213,7 @@ struct Provenance {
   std::shared_ptr<const Origins> origins; ///< who gave each value; null where nothing was read
   std::string run;                        ///< its name as one of a sweep's runs; empty where there is no sweep
   std::string varies;                     ///< the part of it that is its own, fit for a folder's name: "threshold_deg=0.1,seed=2"
-  std::optional<int> frame;               ///< which one of an animation it is (read.h)
+  std::optional<int> frame;               ///< which one of an animation it is (animation.h)
   std::vector<std::string> notes;         ///< what a change of the engine left out, a line each (change_engine.h)
   bool operator==(const Provenance&) const { return true; }
 };

@@ -2,6 +2,8 @@
 #include "preset/read.h"
 
 #include "base/nearest.h"
+#include "preset/animation.h"
+#include "preset/check.h"
 #include "preset/describe.h"
 #include "preset/document.h"
 #include "preset/walks.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Presets in and out: strict reading with inheritance, overrides and sweeps; writing; the JSON schema.
+// Presets in and out: strict reading with inheritance, overrides and sweeps; writing.
 #pragma once
 #include "base/place.h"
 #include "preset/preset.h"
@@ -31,9 +31,6 @@ std::string to_json(const Preset& preset);
 /// The same for a file in another folder than the preset's source: a file name that would mean another file there (or none)
 /// becomes absolute, so that preset.json beside a run's pictures can be run again.
 std::string to_json(const Preset& preset, const std::filesystem::path& folder);
-/// JSON Schema (2020-12) of a preset file, from the same descriptions.
-std::string schema();
-
 /// The preset with each name of a file as `renamed` gives it, in the order of the file.
 Preset with_file_names(Preset preset, const std::function<std::string(const std::string& name)>& renamed);
 /// Each name of a file in the preset, and the JSON pointer of where it stands, in the order of the file.
@@ -48,9 +45,6 @@ struct ShippedPreset {
 };
 /// Every preset under presets_folder(), sorted by name.
 std::vector<ShippedPreset> shipped_presets();
-
-/// Throws bad_input at where(pointer) of the first contradiction.
-void check(const Preset& preset, const std::function<Place(const std::string& pointer)>& where);
 
 // A preset's sweep as data, for who edits it: which fields take which values. read_presets gives the runs at once.
 
@@ -89,16 +83,5 @@ struct SweptRun {
 /// As read_presets gives them, but that each run is refused alone. Throws bad_input as read_presets for a sweep that gives no runs: a
 /// field's name that is none, one field inside of another, no value, more than 10000 runs.
 std::vector<SweptRun> swept_runs(const Preset& preset, const Sweep& sweep);
-
-/// The track's numbers at a frame. Its keys are by rising frame and have equally many numbers.
-std::vector<double> value_at(const Track& track, int frame);
-
-/// The preset of one frame, complete and without an animation, so that it can be run on its own: each track's field has the track's value.
-/// Its name ends in ",frame=12". frame: 0 to frames - 1. Throws bad_input as check() does at what cannot be in this frame.
-Preset at_frame(const Preset& preset, int frame);
-
-/// The preset with its tracks' fields as they are in frame 0, its animation as it was. Throws bad_input at the first track, key or value
-/// that cannot be: a path that leads to no number, keys out of order, numbers that the field does not take, two tracks for one field.
-Preset at_start(const Preset& preset);
 
 } // namespace nephroid::preset

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/comparison.h"
+
 #include "measure/run_curves.h"
-#include "report/data.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/pictures.h"
+
 #include "base/base64.h"
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/difference.h"
 #include "measure/read_picture.h"
-#include "report/data.h"
 
 #include <fmt/format.h>
 

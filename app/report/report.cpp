@@ -2,12 +2,14 @@
 // From folders to data, and the data into the page, which holds its style, its script and the chart library itself. What every run writes
 // is required: a report with holes would be believed.
 
+#include "report/report.h"
+
 #include "base/files.h"
 #include "base/json_output.h"
 #include "measure/difference.h"
 #include "measure/run_files.h"
-#include "report/data.h"
-
+#include "report/comparison.h"
+#include "report/pictures.h"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "preset/animation.h"
 #include "base/files.h"
 #include "image/image.h"
 #include "measure/run_files.h"

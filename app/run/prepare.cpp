@@ -4,6 +4,7 @@
 
 #include "base/files.h"
 #include "engine/engine.h"
+#include "scene/camera_and_lights.h"
 
 #include <fmt/format.h>
 

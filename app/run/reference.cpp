@@ -8,6 +8,7 @@
 #include "base/hashed_bytes.h"
 #include "engine/engine.h"
 #include "image/image.h"
+#include "measure/error_estimate.h"
 #include "measure/measured_job.h"
 #include "measure/read_picture.h"
 #include "preset/read.h"

@@ -6,7 +6,7 @@
 #include "base/json_output.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
-#include "report/data.h"
+#include "report/report.h"
 #include "run/run.h"
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include "scene/bvh.h"
 
 #include "base/error.h"
+#include "scene/ray.h"
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>

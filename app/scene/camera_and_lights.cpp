@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera and the lamps of a preset in the scene: their vectors are checked, in double, then rounded once.
+// Vectors are checked, in double, then rounded once.
+#include "scene/camera_and_lights.h"
+
 #include "base/error.h"
 #include "scene/materials.h"
 #include "scene/place.h"

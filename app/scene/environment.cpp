@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/scene.h"
+#include "scene/environment.h"
 
 #include "base/counted.h"
 #include "image/image.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 #include "scene/materials.h"
 
 #include "base/error.h"
+#include "optics/dispersion_file.h"
 #include "optics/spectrum.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects of a loaded scene that move: glass away from what it stands exactly on, and all to where another preset has them.
+#include "scene/move.h"
+
+#include "scene/camera_and_lights.h"
 #include "scene/place.h"
 
 #include <fmt/format.h>

@@ -38,12 +38,6 @@ Bounds placed_bounds(const Mesh& mesh, const Placement& placement, const Place& 
 /// Throws bad_input at where: too large, too small or too far away for single precision.
 PlacedMesh place(const Mesh& mesh, const Placement& placement, const glm::dvec3& origin, bool dielectric, const Place& where);
 
-/// Where two surfaces lie in one place, which of them a ray meets first is a matter of rounding, and light would be lost between them.
-/// Draws in every dielectric whose bounds end where another object's bounds begin, end or lie, so that a gap of air is left which single
-/// precision can tell (some 1e-6 of the larger object's coordinates), and says so in scene.warnings. What overlaps is left alone, and so is
-/// an ellipsoid that touches in a point.
-void part_touching(Scene& scene);
-
 /// How far objects reach, in units, from the middle of the scene's coordinates.
 double scene_radius(const Scene& scene);
 

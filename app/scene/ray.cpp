@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One ray at a time through the tree of bvh.h. Pictures are traced by kernels/tracing/bvh.h.
-#include "scene/bvh.h"
+#include "scene/ray.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,11 @@
 // Puts the scene together: materials, then objects in place, then the lights and the camera, which need to know the objects.
 #include "scene/scene.h"
 
+#include "scene/camera_and_lights.h"
 #include "scene/materials.h"
+#include "scene/move.h"
 #include "scene/place.h"
+#include "scene/shapes.h"
 
 #include <fmt/format.h>
 

@@ -107,12 +107,6 @@ inline const Material& material_of(const Scene& scene, const Object& object)
 /// Throws bad_input at FILE#/pointer or at the mesh file, interrupted where `watch` asks for it.
 Scene load_scene(const preset::Preset& preset, const Watch& watch = {});
 
-/// The camera alone, for a view that changes while everything else stays. Throws bad_input at FILE#/scene/camera/...
-Camera make_camera(const preset::Camera& camera, const Scene& scene);
-
-/// where: FILE#/scene/lights/INDEX. Throws bad_input there: no direction, power, size or angle out of range, unknown spectrum.
-Light make_light(const preset::Light& light, const Scene& scene, const Place& where);
-
 /// Directional light of all directions together: its irradiance is that on a sphere, over the area of the sphere's shadow.
 Light make_environment_light(const Environment& environment);
 
@@ -150,22 +144,7 @@ void for_each_corner(const Scene& scene, const Object& object, const Visit& visi
 /// The smallest along the axes, in the scene's coordinates. Throws as triangles_of.
 Bounds bounds_of(const Scene& scene, const Object& object);
 
-/// The surface of a shape of preset.h, centred by its bounds on the origin, y up, with normals. Flat facets have vertices of
-/// their own, so their normals are exact; curved sides share theirs.
-/// quad: open, size x by z in the plane y = 0, facing +y. box, plate: size x, y, z.
-/// sphere: an exact one, not of triangles.
-/// cylinder: about the y axis, flat ends, a sharp rim.
-/// prism: stands along y; the apex edge at +z, the third side at -z, facing -z.
-/// brilliant: the round brilliant cut, table up: 57 facets and 16 of the girdle.
-Mesh make_shape(const preset::Shape& shape);
-
 /// Of preset::Transform::rotate_deg: about x, then y, then z, each counter-clockwise seen from the axis' positive end.
 glm::dmat3 rotation(const preset::Vec3& rotate_deg);
-
-/// The scene with objects and camera where another preset has them. loaded: of `before`, from which `now` differs by the turns and
-/// translations of objects and by the camera. Scene::origin stays, so places differ from those of load_scene(now) by what single precision
-/// leaves; so do those of the gaps between things that touch. Nothing where objects go so far that load_scene would have to choose another
-/// origin: beyond twice the distance that they had. Throws bad_input as make_camera.
-std::optional<Scene> move_objects(const Scene& loaded, const preset::Preset& before, const preset::Preset& now);
 
 } // namespace nephroid::scene

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The settings of engine 1 as the preset knows them, and what one of their fields cannot say alone.
-#include "photons/describe_settings.h"
+#include "spectral/settings.h"
 
 #include "base/error.h"
+#include "photons/describe_settings.h"
 #include "preset/settings_type.h"
 
 #include <fmt/format.h>

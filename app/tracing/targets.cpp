@@ -2,6 +2,7 @@
 #include "tracing/targets.h"
 
 #include "scene/bvh.h"
+#include "scene/ray.h"
 #include "tracing/scales.h"
 
 #include <algorithm>

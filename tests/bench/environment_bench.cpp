@@ -3,6 +3,7 @@
 // snapshot), and how long it takes then until the first full picture. The bunny at 512 x 512 with 24 lights and an occluder;
 // NEPHROID_BENCH_PRESET names another preset. Its bake is read where there is one.
 #include "environment/engine.h"
+#include "environment/job.h"
 #include "preset/read.h"
 #include "tests/support/standard.h"
 

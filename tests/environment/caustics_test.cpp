@@ -2,6 +2,7 @@
 // Baked spheres under lights, on a device: bakes made by formula, looked up where the formula says what is there.
 #include "environment/light/caustics.h"
 
+#include "scene/ray.h"
 #include "tests/environment/bakes.h"
 #include "tests/environment/maps.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The directions of a bake and the map of a sphere; which baked directions stand for a light, and how their spheres are turned.
+#include "scene/ray.h"
 #include "tests/environment/views.h"
 #include "tests/support/saved_jobs.h"
 

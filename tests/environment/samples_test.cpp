@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The directions in which occluders are looked for, without a device: exact sums, and what is left of a light behind balls, against every
 // texel of the cube.
-#include "environment/occlusion/occlusion.h"
+#include "environment/occlusion/samples.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"
 

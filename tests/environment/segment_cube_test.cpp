@@ -3,6 +3,7 @@
 #include "environment/segment/cube.h"
 #include "environment/segment/irradiance.h"
 #include "scene/bvh.h"
+#include "scene/ray.h"
 #include "scene/scene.h"
 #include "tests/environment/maps.h"
 #include "tests/support/pictures.h"

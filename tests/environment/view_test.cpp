@@ -2,6 +2,7 @@
 // What engine 2 shows, through a job: a white furnace about a ball, receivers and what hides caustics from them, the light of lamps behind
 // a ball lens.
 #include "optics/fresnel.h"
+#include "scene/ray.h"
 #include "tests/environment/views.h"
 
 namespace nephroid::view_test {

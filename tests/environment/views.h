@@ -2,6 +2,7 @@
 // Small scenes about a glass ball of radius 1 for the renderer of engine 2, and what its pictures show.
 #pragma once
 #include "environment/engine.h"
+#include "environment/job.h"
 #include "tests/environment/bakes.h"
 #include "tests/support/process_state.h"
 

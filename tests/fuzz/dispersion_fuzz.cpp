@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A refractiveindex.info file, sampled in every way.
 #include "optics/dispersion.h"
+#include "optics/dispersion_file.h"
 #include "tests/fuzz/harness.h"
 
 namespace nephroid::fuzz {

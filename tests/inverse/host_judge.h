@@ -4,6 +4,7 @@
 #include "inverse/judge.h"
 #include "optics/fresnel.h"
 #include "scene/bvh.h"
+#include "scene/ray.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,6 +4,7 @@
 #include "kernels/tracing/shared_types.h"
 #include "optics/fresnel.h"
 #include "scene/bvh.h"
+#include "scene/ray.h"
 #include "tests/support/ellipsoids.h"
 #include "tests/support/meshes.h"
 #include "tests/support/test_kernels.h"

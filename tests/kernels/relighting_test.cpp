@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers weighed by a light are the picture under that light: against runs without layers, in a scene with dispersion, several reflectors,
 // an edge in most pixels' reach, glass before the camera and a dark lamp.
-#include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
 #include "spectral/settings.h"
 #include "tests/support/leaving_out_scenes.h"
 #include "tests/support/passes.h"

@@ -2,7 +2,7 @@
 // Extreme ways to deal with wavelengths: one cluster and 401, efforts that have nothing to choose from, curves that jump at every
 // nanometre, photons one at a time and lights by the thousand, streaks at grazing incidence and beside total reflection, layers for any
 // light. docs/notebook/extremes.md has the table.
-#include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
 #include "spectral/settings.h"
 #include "tests/support/extreme_waves.h"
 

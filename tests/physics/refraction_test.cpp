@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons through plates and prisms, against Snell's and Fresnel's closed forms.
 #include "optics/dispersion.h"
+#include "optics/dispersion_file.h"
 #include "optics/fresnel.h"
 #include "spectral/settings.h"
 #include "tests/support/closed_form.h"

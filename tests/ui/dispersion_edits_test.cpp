@@ -2,6 +2,7 @@
 // What can be done to a dispersion: places snap to a grid, a glass becomes control points, files are loaded or refused, also by the panel
 // "Dispersion".
 #include "dispersion_fixture.h"
+#include "optics/dispersion_file.h"
 
 namespace nephroid::ui::dispersion_edits_test {
 

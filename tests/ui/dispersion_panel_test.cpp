@@ -2,6 +2,7 @@
 // The panel "Dispersion" under an injected mouse: points are dragged, added and removed, clusters follow, what is
 // wrong becomes a message. Rows that come or go while one is dragged: the drag ends, and no other row goes where the mouse goes.
 #include "dispersion_fixture.h"
+#include "optics/dispersion_file.h"
 #include "spectral/settings.h"
 
 namespace nephroid::ui::dispersion_panel_test {

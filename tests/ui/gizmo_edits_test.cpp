@@ -3,6 +3,7 @@
 // object before, turned.
 #include "ui/view/gizmo_edits.h"
 
+#include "scene/camera_and_lights.h"
 #include "scenes.h"
 #include "tests/support/loaded_scenes.h"
 #include "ui/view/gizmo.h"

@@ -4,6 +4,7 @@
 // NEPHROID_PICTURES they are written there. What they are to show is tested all the same. Skipped where there is no Xvfb, no xdotool or no
 // ImageMagick.
 #include "optics/dispersion.h"
+#include "optics/dispersion_file.h"
 #include "real_window.h"
 #include "scenes.h"
 #include "spectral/settings.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Edits of a light's spectrum, and what the panel "Spectra" makes of a preset: without a window.
 #include "optics/spectrum.h"
-#include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
 #include "photons/effort/importance.h"
 #include "scene/materials.h"
 #include "scenes.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tracks of an animation at a frame against figures by hand, a frame's preset against the same fields given by --set, and lines for what
 // cannot be.
+#include "preset/animation.h"
 #include "preset/read.h"
 #include "tests/support/test.h"
 

@@ -2,6 +2,7 @@
 // Wavelength clusters: the figures for N-SF66 and N-BK7, exact integrals, and what must hold for any curve. The two designed dispersion
 // curves: sorting the wavelengths by n saves the clusters that it saves in the thesis (section 4.1.1: 202 and 204 sorted, 247 not sorted).
 #include "optics/dispersion.h"
+#include "optics/dispersion_file.h"
 #include "photons/clusters/clusters.h"
 #include "tests/support/test.h"
 

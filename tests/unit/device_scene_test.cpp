@@ -2,7 +2,8 @@
 // The tables that engine 1 hands to its kernels: targets that enclose, sums over wavelength, cdfs exact to the bit, which wavelengths glass
 // and mirrors take alike; and the plan's reasons.
 #include "optics/spectrum.h"
-#include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
+#include "scene/ray.h"
 #include "spectral/settings.h"
 #include "tests/support/plans.h"
 #include "tracing/scales.h"

@@ -2,6 +2,7 @@
 // Dispersion against published figures, hand-computed values of every formula, and the oddities of the refractiveindex.info database.
 // Malformed files: each answers with one line that names the file, the line where it can, and what is expected.
 #include "optics/dispersion.h"
+#include "optics/dispersion_file.h"
 #include "tests/support/test.h"
 
 namespace nephroid::dispersion_test {

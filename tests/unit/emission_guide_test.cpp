@@ -5,6 +5,7 @@
 #include "photons/relight/layer_film.h"
 #include "photons/relight/layer_light.h"
 #include "photons/pixel_surfaces.h"
+#include "scene/ray.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/presets.h"
 #include "tests/support/saved_jobs.h"

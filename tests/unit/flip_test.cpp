@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // FLIP, HDR-FLIP and IW-SSIM against their authors' own programs, and what those leave undefined.
-#include "measure/perceptual.h"
+#include "measure/flip.h"
+#include "measure/iw_ssim.h"
 #include "tests/support/pictures.h"
 
 namespace nephroid::flip_test {

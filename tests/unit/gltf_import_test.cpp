@@ -2,6 +2,7 @@
 // Importing glTF: small files written here, and what becomes of them against values worked out in comments; and files that are cut, missing
 // their data, or lie about it.
 #include "optics/dispersion.h"
+#include "optics/dispersion_file.h"
 #include "optics/spectrum.h"
 #include "preset/read.h"
 #include "run/import/gltf_scene.h"

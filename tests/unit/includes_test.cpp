@@ -242,6 +242,22 @@ Source read_source(const fs::path& file)
   return source;
 }
 
+// Then every header is compiled once with nothing before it.
+TEST(Includes, a_file_begins_with_its_own_header)
+{
+  const fs::path root = NEPHROID_SOURCE_DIR;
+  int files = 0;
+  for (const auto& [top, seen_from] : std::map<std::string, std::string>{{"app", "app"}, {"ui", ""}, {"python", ""}})
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / top)) {
+      const fs::path header = fs::path(entry.path()).replace_extension(".h");
+      if (entry.path().extension() != ".cpp" || !fs::exists(header)) continue;
+      ++files;
+      const std::vector<std::string> ours = read_source(entry.path()).ours;
+      EXPECT_EQ(ours.empty() ? "" : ours.front(), fs::relative(header, root / seen_from)) << entry.path();
+    }
+  EXPECT_GT(files, 100);
+}
+
 /// The standard headers that a file includes itself or by the project's own, which are named from the root, from app/ or from beside it.
 std::set<std::string> standard_headers(const std::map<std::string, Source>& sources, const fs::path& file, std::set<fs::path>& seen)
 {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera's frame and pixel rays by hand, the corners of objects and the box about them, host rays through the tree against every
 // triangle on its own, and where a look through a pixel ends, against Snell's law by hand.
-#include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
 #include "photons/pixel_surfaces.h"
+#include "scene/camera_and_lights.h"
+#include "scene/ray.h"
 #include "tests/support/loaded_scenes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/presets.h"

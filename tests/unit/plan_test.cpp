@@ -2,6 +2,7 @@
 // What a run says about itself before and while it works: the plan as JSON and as text, the switch that a plan names for a pass (the window
 // draws a check box from it and the command line names it), the files in its folder, its progress.
 #include "cli/progress.h"
+#include "job/pace.h"
 #include "plan/plan.h"
 #include "preset/read.h"
 #include "run/run.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report over runs whose slopes, speed-ups and floors are known: its data, and the page that holds them. tests/hostile/report_test.cpp
 // looks at it in a browser.
-#include "report/data.h"
+#include "report/report.h"
 #include "tests/support/made_runs.h"
 
 #include <regex>

@@ -2,7 +2,7 @@
 // What the panel "Environment" shows of a preset: its map, read once, as a cube and as a picture; the lights that it is cut into; how well
 // as many lights as one likes would do. Made beside the frames, what is seen first. And what a person reads of the lights. No Dear ImGui.
 #pragma once
-#include "environment/segment/segment.h"
+#include "environment/segment/picture.h"
 #include "job/job.h"
 #include "preset/preset.h"
 #include "ui/state/tasks.h"

@@ -3,6 +3,7 @@
 
 #include "base/counted.h"
 #include "job/job.h"
+#include "job/pace.h"
 #include "ui/widgets/action.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/widgets.h"

@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "base/lower_case.h"
 #include "image/image.h"
+#include "job/pace.h"
 #include "preset/read.h"
 #include "ui/shell/glfw_window.h"
 #include "ui/shell/status_line.h"

@@ -9,7 +9,7 @@
 #include "measure/run_curves.h"
 #include "measure/run_files.h"
 #include "preset/read.h"
-#include "report/data.h"
+#include "report/report.h"
 #include "run/run.h"
 #include "ui/state/files.h"
 

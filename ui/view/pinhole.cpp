@@ -3,6 +3,7 @@
 
 #include "preset/read.h"
 #include "scene/bvh.h"
+#include "scene/ray.h"
 #include "scene/scene.h"
 
 #include <fmt/format.h>

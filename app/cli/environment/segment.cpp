@@ -5,6 +5,7 @@
 #include "base/json_output.h"
 #include "cli/verb.h"
 #include "environment/segment/irradiance.h"
+#include "environment/segment/picture.h"
 #include "image/image.h"
 #include "preset/origins.h"
 #include "preset/read.h"

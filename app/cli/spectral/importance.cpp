@@ -5,7 +5,7 @@
 #include "base/json_output.h"
 #include "cli/spectral/wavelength_runs.h"
 #include "cli/verb.h"
-#include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
 #include "preset/origins.h"
 #include "preset/read.h"
 #include "spectral/settings.h"

@@ -6,6 +6,7 @@
 #include "base/hashed_bytes.h"
 #include "base/nearest.h"
 #include "scene/bvh.h"
+#include "scene/ray.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

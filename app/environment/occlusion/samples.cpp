@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "environment/occlusion/occlusion.h"
+#include "environment/occlusion/samples.h"
 
 #include "base/parallel.h"
+#include "scene/ray.h"
 
 #include <algorithm>
 #include <array>

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "scene/bvh.h"
+#include "scene/ray.h"
 
 #include <algorithm>
 #include <cmath>

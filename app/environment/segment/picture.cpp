@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "environment/segment/segment.h"
+#include "environment/segment/picture.h"
 
 #include "image/image.h"
 

@@ -50,17 +50,6 @@ Segmentation segment(const CubeMap& cube, const SegmentSettings& settings);
 /// angles. The fewest that are `lights` or more; for 6 and 24 the very lights that segment() makes.
 Segmentation even_segments(const CubeMap& cube, int lights);
 
-/// A segmentation as a picture of the map (picture.cpp).
-struct SegmentPicture {
-  int width = 0, height = 0;
-  std::vector<unsigned char> rgba; ///< row 0 at the top
-};
-
-/// The map as it is in its file, 1024 x 512, with its range made small enough for a screen.
-SegmentPicture shown_map(const scene::Environment& map);
-/// The same with the borders of all regions as lines and the directions of the lights as discs.
-SegmentPicture segment_picture(const scene::Environment& map, const Segmentation& segmentation);
-
 /// Sums of weights and of weights times unit direction, in the face's own axes s, t and outwards.
 struct Moments {
   double m0 = 0;

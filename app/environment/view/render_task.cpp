@@ -2,6 +2,7 @@
 #include "environment/view/render_task.h"
 
 #include "environment/bake/baker.h"
+#include "scene/move.h"
 #include "tracing/omissions.h"
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 #include "environment/settings.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"
+#include "scene/move.h"
 #include "scene/scene.h"
 #include "tracing/scene_tables.h"
 

@@ -3,6 +3,7 @@
 
 #include "base/parallel.h"
 #include "environment/colours.h"
+#include "scene/move.h"
 
 #include <algorithm>
 #include <array>

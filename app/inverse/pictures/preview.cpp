@@ -6,6 +6,7 @@
 #include "inverse/assign/footprint.h"
 #include "inverse/bending.h"
 #include "inverse/lens/lens.h"
+#include "scene/camera_and_lights.h"
 
 #include <fmt/format.h>
 

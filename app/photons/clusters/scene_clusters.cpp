@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "photons/clusters/scene_clusters.h"
+
 #include "photons/clusters/clusters.h"
 #include "tracing/wavelength_tables.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the work of a pass is allocated to lights and clusters.
-#include "photons/effort/importance.h"
+#include "photons/effort/effort.h"
 
+#include "photons/effort/importance.h"
 #include "tracing/omissions.h"
 #include "tracing/scales.h"
 

@@ -3,6 +3,7 @@
 // diffuse or mirror light.
 #include "photons/effort/importance.h"
 
+#include "scene/ray.h"
 #include "tracing/targets.h"
 
 #include <algorithm>

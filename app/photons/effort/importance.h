@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much each wavelength matters to the eye in a scene (thesis 4.1.2), how many iterations a cluster gets for it, and how the work of a
-// pass is allocated to lights and clusters (Settings::effort). No OpenCL here.
+// How much each wavelength matters to the eye in a scene (thesis 4.1.2), and how many iterations a cluster gets for it. No OpenCL here.
 #pragma once
 #include "photons/settings.h"
-#include "photons/tables/run_tables.h"
-#include "plan/plan.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
 
@@ -60,23 +57,5 @@ std::vector<double> cluster_importance(const optics::Spectrum& u, std::span<cons
 /// Iterations of a cluster after `passes` passes: ceil(u passes). It grows with passes by 0 or 1 at a time, so a cluster has its turn in
 /// pass p (from 0) when iterations(u, p + 1) > iterations(u, p). importance: 0..1.
 std::int64_t iterations(double importance, std::int64_t passes);
-
-/// How photons are allocated to clusters, and what share of the iterations each has.
-struct ClusterShares {
-  std::vector<double> photons;    ///< [light][cluster] flat: photons of a pass are allocated in proportion; 0 only where there is no light
-  std::vector<double> importance; ///< [cluster]: 0..1, the largest 1, above 0 where there is light: part of the iterations that it has
-};
-
-/// watts: of each light of `tables` towards its targets.
-/// power, and variance and automatic to begin with: by what the eye makes of the watts, (X + Y + Z) / 3 of the cluster's share, plus a
-/// twentieth of the share. equal: every cluster that has light the same. importance, radziszewski: by cluster_importance. random: as equal.
-/// Within a cluster lights have their part by their watts in it. Where no caustic can be (no light, nothing that throws or receives one)
-/// importance is not asked for: every cluster has 1. Throws bad_input as wavelength_importance does.
-ClusterShares make_cluster_shares(const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
-                                  const std::vector<double>& watts, const tracing::WavelengthTables& tables);
-
-/// The plan's pass "importance": how photons are allocated to clusters, and what of equal work that leaves. importance:
-/// ClusterShares::importance.
-plan::Pass effort_pass(const Settings& settings, const std::vector<double>& importance);
 
 } // namespace nephroid::photons

@@ -2,7 +2,7 @@
 #include "photons/relight/layer_film.h"
 
 #include "base/counted.h"
-#include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
 
 #include <fmt/format.h>
 

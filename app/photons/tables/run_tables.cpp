@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photons/tables/run_tables.h"
 
-#include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
+#include "photons/effort/effort.h"
 #include "photons/effort/emitters.h"
-#include "photons/effort/importance.h"
 #include "photons/maps/photon_map.h"
 #include "tracing/scales.h"
 

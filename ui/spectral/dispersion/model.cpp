@@ -4,6 +4,7 @@
 #include "base/files.h"
 #include "optics/dispersion.h"
 #include "photons/clusters/clusters.h"
+#include "photons/clusters/scene_clusters.h"
 #include "scene/materials.h"
 #include "scene/scene.h"
 #include "spectral/settings.h"

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What photons and paths from the eye do for a preset, and what is left out.
+#pragma once
+#include "photons/settings.h"
+#include "photons/tables/run_tables.h"
+#include "plan/plan.h"
+#include "preset/preset.h"
+#include "scene/bvh.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace nephroid::photons {
+
+struct RunPart; ///< plan_part.h
+
+/// What a run does, decided once, with the tables that this took.
+struct RunPlan : plan::Plan {
+  Settings settings;
+  RunTables tables;
+  std::vector<const RunPart*> parts; ///< that run; stages in the order of their turns in a pass
+  bool has_previews = true;         ///< whether a large picture is worked out coarsely first
+  bool runs(const RunPart& part) const;
+};
+
+/// Throws bad_input as make_run_tables does.
+RunPlan make_plan(const preset::Preset& preset, const Settings& settings, const scene::Scene& scene, const scene::Bvh& bvh,
+                  const tracing::LeaveOut& leave_out);
+
+} // namespace nephroid::photons
