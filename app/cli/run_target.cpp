@@ -73,13 +73,11 @@ public:
     if (!job) require_memory(prepared, context, shared.ranks); // a run that cannot be leaves no folder
     if (!is_root) return follow(prepared, context, communicator);
     std::optional<compute::TellOfCompiling> telling(std::in_place, context, [watch] { watch.begin("compiling kernels"); });
-    std::optional<compute::Together> together;
     const run::ClaimedFolder claimed(target_.folder);
     if (is_frame()) run::hide_frame(target_.animation, target_.preset.provenance.frame.value());
     reference_ = reference(prepared, context);
     if (!job) {
-      together.emplace(context, communicator);
-      job = run::make_job(prepared, context);
+      job = run::make_job(prepared, {context, communicator});
       if (!communicator.is_alone()) job = job::distributed(std::move(job), communicator);
       job = measure::measured(std::move(job), prepared.preset, reference_, began_, options_.pictures_at);
       shared.of_job = target_.preset;
@@ -99,8 +97,7 @@ private:
   /// All that the other ranks do of a run.
   static void follow(const run::Prepared& prepared, const compute::Context& context, const Communicator& communicator)
   {
-    const compute::Together together(context, communicator);
-    const std::unique_ptr<job::Job> job = run::make_job(prepared, context);
+    const std::unique_ptr<job::Job> job = run::make_job(prepared, {context, communicator});
     job::follow_root(*job, communicator);
   }
 

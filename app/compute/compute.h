@@ -3,7 +3,6 @@
 // The only folder that includes an OpenCL header. Every failure is an Error naming the call, the kernel and the build log.
 #pragma once
 #include "base/error.h"
-#include "base/communicator.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -79,8 +78,6 @@ public:
   void set_warm() const;
   /// Waits until everything queued is done. Throws failed with the first error.
   void finish();
-  /// Those whose ranks share the work of jobs that are made in this context (Together); else alone.
-  const Communicator& communicator() const;
   std::shared_ptr<detail::ContextState> state;
 };
 
@@ -94,7 +91,6 @@ public:
   void write(const void* from, std::size_t bytes, std::size_t offset_bytes);
   void read(void* to, std::size_t bytes, std::size_t offset_bytes) const; ///< waits
   void fill_zero();
-  const Communicator& communicator() const; ///< Context::communicator
   std::shared_ptr<detail::BufferState> state;
 };
 
@@ -129,21 +125,6 @@ public:
   {
     std::vector<T> items(count_);
     if (count_) RawBuffer::read(items.data(), bytes(), 0);
-    return items;
-  }
-  /// Of sums that every rank adds to in its own memory: theirs together.
-  std::vector<T> read_sum() const
-  {
-    static_assert(std::is_same_v<T, std::int64_t>);
-    std::vector<T> items = read();
-    communicator().all_reduce_sum(items);
-    return items;
-  }
-  /// Of what some rank has written, where the others have 0 or the same.
-  std::vector<T> read_joined() const
-  {
-    std::vector<T> items = read();
-    communicator().all_reduce_or(std::as_writable_bytes(std::span(items)));
     return items;
   }
 
@@ -229,18 +210,6 @@ std::string kernel_source(const Context& context, const std::string& file);
 /// no context: a thread may call it while another one builds programs.
 using KernelTimes = std::map<std::filesystem::path, std::filesystem::file_time_type>;
 KernelTimes kernel_times(const std::filesystem::path& folder);
-
-/// As long as this is there, jobs of the context share their work with the other ranks.
-class Together {
-public:
-  Together(Context context, Communicator communicator);
-  ~Together();
-  Together(const Together&) = delete;
-  Together& operator=(const Together&) = delete;
-
-private:
-  Context context_;
-};
 
 /// Who waits for kernels to be compiled is told so: the first run with a new option takes seconds to begin. As long as this is there,
 /// tell() is called before the context compiles a kernel source, by the thread that uses it, and not for programs that it has already.

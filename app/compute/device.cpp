@@ -151,12 +151,6 @@ TellOfCompiling::~TellOfCompiling()
   context_.state->tell_of_compiling = [] {};
 }
 
-Together::Together(Context context, Communicator communicator) : context_(std::move(context)) { context_.state->communicator = std::move(communicator); }
-
-Together::~Together() { context_.state->communicator = {}; }
-
-const Communicator& Context::communicator() const { return state->communicator; }
-
 const DeviceInfo& Context::device() const { return state->info; }
 
 bool Context::is_cold() const { return state->cold; }

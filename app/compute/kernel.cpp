@@ -81,12 +81,6 @@ void RawBuffer::read(void* to, std::size_t bytes, std::size_t offset_bytes) cons
   named(*state, [&] { state->context->queue.enqueueReadBuffer(state->buffer, CL_TRUE, offset_bytes, bytes, to); });
 }
 
-const Communicator& RawBuffer::communicator() const
-{
-  static const Communicator alone;
-  return state ? state->context->communicator : alone;
-}
-
 void RawBuffer::fill_zero()
 {
   named(*state, [&] { state->context->queue.enqueueFillBuffer(state->buffer, Zeros{}, 0, state->buffer.getInfo<CL_MEM_SIZE>()); });

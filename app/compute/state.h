@@ -37,7 +37,6 @@ struct ContextState {
   /// By file and compiler options. One of an older text is replaced, so that hours of editing kernels do not fill the memory.
   std::map<std::pair<std::string, std::string>, BuiltProgram> programs;
   std::function<void()> tell_of_compiling = [] {};
-  Communicator communicator;
   bool cold = false; ///< Context::is_cold
 };
 

@@ -9,6 +9,7 @@
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
+#include "communicator/rank_context.h"
 
 namespace nephroid::engine {
 
@@ -62,7 +63,7 @@ struct Engine {
   /// The job on a device. plan: what `plan` gave for the same preset and scene. The scene and tree need not outlive the call. Throws failed
   /// where the device has not enough memory, BuildError for a kernel that does not compile.
   std::unique_ptr<job::Job> (*job)(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
-                                   const compute::Context& context);
+                                   const mpi::RankContext& context);
 
   /// The settings of a reference of `preset` with so many passes: the recipe's own, or else the preset's, made exact. They leave no bias
   /// but what the recipe asks for.

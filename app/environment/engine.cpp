@@ -36,7 +36,7 @@ constinit const engine::Engine engine{
       return std::make_unique<EnvironmentPlan>(make_plan(preset, scene, bvh));
     },
     .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan,
-              const compute::Context& context) { return make_job(preset, dynamic_cast<const EnvironmentPlan&>(plan), context); },
+              const mpi::RankContext& context) { return make_job(preset, dynamic_cast<const EnvironmentPlan&>(plan), context); },
     .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
     .checks = closed_forms,
     .adoptable = adoptable,

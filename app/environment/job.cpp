@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 class EnvironmentJob final : public job::Job {
 public:
-  EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
+  EnvironmentJob(const preset::Preset& preset, const EnvironmentPlan& plan, const mpi::RankContext& context)
       : preset_(preset), shown_(preset), loaded_(preset), task_(plan.task), render_(plan.render), context_(context),
         file_(plan.bake_file), identity_{plan.key, hash_of(compute::kernel_source(context, "environment/bake.cl"))},
         width_(preset.scene.camera.resolution[0]), height_(preset.scene.camera.resolution[1]),
@@ -121,7 +121,7 @@ public:
 
   void save(ByteSink& sink) override
   {
-    tracing::State state(sink);
+    tracing::State state(sink, context_.communicator());
     bool complete = bake_.has_value();
     state.value(bake_seconds_);
     state.value(render_seconds_);
@@ -133,7 +133,7 @@ public:
   /// A bake that was complete is in its file, or is baked again.
   void load(ByteSource& source) override
   {
-    tracing::State state(source);
+    tracing::State state(source, context_.communicator());
     double bake_seconds = 0, render_seconds = 0;
     bool complete = false;
     state.value(bake_seconds);
@@ -425,7 +425,7 @@ private:
   preset::Preset loaded_; ///< what render_ is of
   std::shared_ptr<const BakeTask> task_;
   std::shared_ptr<const RenderTask> render_; ///< null: only the bake is shown
-  compute::Context context_;
+  mpi::RankContext context_;
   std::filesystem::path file_;
   BakeIdentity identity_;
   int width_, height_;
@@ -451,7 +451,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const compute::Context& context)
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const EnvironmentPlan& plan, const mpi::RankContext& context)
 {
   return std::make_unique<EnvironmentJob>(preset, plan, context);
 }

@@ -27,7 +27,7 @@ photons::RunPlan plan_photons(const preset::Preset& preset, const scene::Scene& 
 }
 
 std::unique_ptr<photons::PhotonJob> make_photons(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh,
-                                           const photons::RunPlan& plan, const compute::Context& context)
+                                           const photons::RunPlan& plan, const mpi::RankContext& context)
 {
   if (plan.layers == 0) return nullptr;
   return photons::make_job(without_stop(preset), scene, bvh, plan, context);

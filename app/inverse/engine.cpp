@@ -51,7 +51,7 @@ constinit const engine::Engine engine{
       return std::make_unique<InversePlan>(make_plan(preset));
     },
     .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&, const plan::Plan& plan,
-              const compute::Context& context) { return make_job(preset, dynamic_cast<const InversePlan&>(plan), context); },
+              const mpi::RankContext& context) { return make_job(preset, dynamic_cast<const InversePlan&>(plan), context); },
     .reference = [](const preset::Preset& preset, int) { return preset.reference->settings.value_or(preset.settings); },
     .checks = closed_forms,
     .adoptable = adoptable,

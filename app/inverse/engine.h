@@ -7,6 +7,7 @@
 #include "job/job.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
+#include "communicator/rank_context.h"
 
 #include <string>
 
@@ -25,7 +26,7 @@ struct InversePlan : plan::Plan {
 InversePlan make_plan(const preset::Preset& preset);
 
 /// Looks for slopes until the method gains no more, or the preset's stop; then makes the solid and judges it.
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context);
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const mpi::RankContext& context);
 
 /// Whether a run of `before` may go on as one of `now` and keep its facets' slopes: only what as many receivers say differs
 /// (distances, offsets, weights, pictures), or the stop; or the camera or a name. Methods other than assign begin again for all but the

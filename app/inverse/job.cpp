@@ -44,7 +44,7 @@ struct CostRow {
 
 class InverseJob final : public job::Job {
 public:
-  InverseJob(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context)
+  InverseJob(const preset::Preset& preset, const InversePlan& plan, const mpi::RankContext& context)
       : context_(context), preset_(preset), layout_(plan.layout), targets_(plan.targets), best_(plan.best), triangles_(plan.triangles),
         method_(make_method(preset, layout_, targets_, context))
   {
@@ -356,7 +356,7 @@ private:
     double seconds = 0;
   };
 
-  compute::Context context_;
+  mpi::RankContext context_;
   /// What the picture of the object is of.
   struct Viewed {
     std::int64_t steps = 0;
@@ -387,7 +387,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const compute::Context& context)
+std::unique_ptr<job::Job> make_job(const preset::Preset& preset, const InversePlan& plan, const mpi::RankContext& context)
 {
   return std::make_unique<InverseJob>(preset, plan, context);
 }

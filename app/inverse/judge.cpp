@@ -105,11 +105,11 @@ std::vector<shared::float4> parts_of(const Layout& l, int count)
   return parts;
 }
 
-/// Buffer::read_sum gives it again.
-void write_sum(compute::Buffer<std::int64_t>& buffer, const std::vector<std::int64_t>& sum)
+/// RankContext::all_reduced_sum gives it again.
+void write_sum(compute::Buffer<std::int64_t>& buffer, const std::vector<std::int64_t>& sum, const Communicator& communicator)
 {
   buffer.fill_zero();
-  if (buffer.communicator().is_root()) buffer.write(sum);
+  if (communicator.is_root()) buffer.write(sum);
 }
 
 std::size_t channels(const Layout& l) { return l.coloured ? 3 : 1; }
@@ -161,7 +161,7 @@ std::vector<WayOut> follow(const compute::Context& context, const Solid& solid, 
   return made;
 }
 
-Judge::Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
+Judge::Judge(const mpi::RankContext& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
              const std::vector<Target>& targets)
     : context_(context), layout_(layout), targets_(targets),
       solid_(context, solid, layout.blurs(), layout.coloured), seed_{static_cast<std::uint32_t>(seed),
@@ -238,13 +238,13 @@ void Judge::read_sums()
 {
   const std::size_t cells = layout_.cell_count(), screen = cells * channels(layout_);
   for (std::size_t half = 0; half < 2; ++half) {
-    const std::vector<std::int64_t> light = light_on_screens_[half].read_sum();
+    const std::vector<std::int64_t> light = context_.all_reduced_sum(light_on_screens_[half]);
     for (std::size_t j = 0; j < light_.size(); ++j)
       for (std::size_t c = 0; c < cells; ++c) halves_[half][j][c] = static_cast<double>(light[j * screen + c]) / RAY_QUANTA * 2 / round_;
   }
   for (std::size_t j = 0; j < light_.size(); ++j)
     for (std::size_t c = 0; c < cells; ++c) light_[j][c] = (halves_[0][j][c] + halves_[1][j][c]) / 2;
-  const std::vector<std::int64_t> outcomes = outcomes_.read_sum();
+  const std::vector<std::int64_t> outcomes = context_.all_reduced_sum(outcomes_);
   std::array<std::int64_t, FATES> sums{};
   for (std::size_t i = 0; i < outcomes.size(); ++i) sums[i % FATES] += outcomes[i];
   const auto facets = [&](int fate) { return static_cast<double>(sums[static_cast<std::size_t>(fate)]) / RAY_QUANTA / round_; };
@@ -257,7 +257,7 @@ std::vector<glm::dvec3> Judge::colours(std::size_t screen) const
   const std::size_t cells = layout_.cell_count();
   std::vector<glm::dvec3> xyz(cells);
   for (const auto& half : light_on_screens_) {
-    const std::vector<std::int64_t> light = half.read_sum();
+    const std::vector<std::int64_t> light = context_.all_reduced_sum(half);
     const auto channel = [&](std::size_t which, std::size_t c) {
       return static_cast<double>(light[(3 * screen + which) * cells + c]) / RAY_QUANTA / round_;
     };
@@ -290,14 +290,14 @@ void Judge::state(State& state)
   state.value(round_);
   state.value(finished_);
   for (auto& half : light_on_screens_) {
-    std::vector<std::int64_t> light = half.read_sum();
+    std::vector<std::int64_t> light = context_.all_reduced_sum(half);
     state.items(light);
-    if (state.is_read()) write_sum(half, light);
+    if (state.is_read()) write_sum(half, light, context_.communicator());
   }
-  std::vector<std::int64_t> outcomes = outcomes_.read_sum();
+  std::vector<std::int64_t> outcomes = context_.all_reduced_sum(outcomes_);
   state.items(outcomes);
   if (!state.is_read()) return;
-  write_sum(outcomes_, outcomes);
+  write_sum(outcomes_, outcomes, context_.communicator());
   if (finished_) read_sums();
 }
 

@@ -8,6 +8,7 @@
 #include "inverse/layout.h"
 #include "kernels/inverse/facet_types.h"
 #include "scene/bvh.h"
+#include "communicator/rank_context.h"
 
 #include <array>
 #include <cstdint>
@@ -61,7 +62,7 @@ class Judge {
 public:
   /// layout and targets outlive it. Two rounds, about four million rays. Where noise is then more than a third of what a figure of these
   /// targets says, two more. Throws as SolidOnDevice.
-  Judge(const compute::Context& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
+  Judge(const mpi::RankContext& context, const Layout& layout, const Solid& solid, std::uint64_t seed,
         const std::vector<Target>& targets = no_targets);
 
   void advance(); ///< a few rows of facets; light and outcomes are there once it has finished
@@ -86,7 +87,7 @@ private:
   void end_pair(); ///< of rounds
   void read_sums();
 
-  compute::Context context_;
+  mpi::RankContext context_;
   const Layout& layout_;
   const std::vector<Target>& targets_;
   SolidOnDevice solid_;

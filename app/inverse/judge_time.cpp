@@ -27,7 +27,7 @@ Layout piece_of(const Layout& layout)
 
 } // namespace
 
-double judge_seconds(const compute::Context& context, const Layout& layout, std::uint64_t triangles)
+double judge_seconds(const mpi::RankContext& context, const Layout& layout, std::uint64_t triangles)
 {
   const Layout piece = piece_of(layout);
   std::vector<glm::dvec2> slopes(piece.facet_count());

@@ -7,6 +7,7 @@
 #include "inverse/facets/solid.h"
 #include "inverse/layout.h"
 #include "job/job.h"
+#include "communicator/rank_context.h"
 
 #include <memory>
 
@@ -42,6 +43,6 @@ public:
 
 /// As the preset says. The layout and the targets outlive it.
 std::unique_ptr<Method> make_method(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets,
-                                    const compute::Context& context);
+                                    const mpi::RankContext& context);
 
 } // namespace nephroid::inverse

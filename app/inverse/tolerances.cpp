@@ -84,7 +84,7 @@ Solid with_waves(const Layout& layout, Solid solid, double rms_mm, std::uint64_t
   return solid;
 }
 
-Tolerances::Tolerances(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
+Tolerances::Tolerances(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
                        std::uint64_t seed)
     : context_(context), layout_(layout), targets_(targets), solid_(solid), seed_(seed)
 {

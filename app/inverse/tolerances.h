@@ -2,6 +2,7 @@
 // How much worse the pictures become where the object is made or put up a little wrong, by the judge.
 #pragma once
 #include "inverse/judge.h"
+#include "communicator/rank_context.h"
 
 #include <optional>
 
@@ -15,7 +16,7 @@ public:
   static constexpr int count = 5; ///< of errors
 
   /// All of them outlive it.
-  Tolerances(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
+  Tolerances(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, const Solid& solid,
              std::uint64_t seed);
 
   /// A few rows of facets of the judge's.
@@ -34,7 +35,7 @@ public:
 private:
   void begin();
 
-  const compute::Context& context_;
+  mpi::RankContext context_;
   const Layout& layout_;
   const std::vector<Target>& targets_;
   const Solid& solid_;

@@ -42,7 +42,8 @@ public:
 
   void develop(std::int64_t, bool, job::Picture& picture) override
   {
-    tracing::add_layer(layer_, {film_.read_sum(), quanta_per_unit(), [&](std::size_t pixel) { return pixels_.samples(pixel); }}, picture);
+    const auto samples = [&](std::size_t pixel) { return pixels_.samples(pixel); };
+    tracing::add_layer(layer_, {world_.context.all_reduced_sum(film_), quanta_per_unit(), samples}, picture);
   }
 
   /// One sample of each block in each half.
@@ -60,7 +61,8 @@ public:
 
   void develop_preview(job::Picture& picture) override
   {
-    tracing::add_layer(layer_, {preview_film_.read_sum(), quanta_per_unit(), [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
+    const auto samples = [](std::size_t) { return std::array{1.0, 1.0}; };
+    tracing::add_layer(layer_, {world_.context.all_reduced_sum(preview_film_), quanta_per_unit(), samples}, picture);
   }
 
   void state(tracing::State& state) override

@@ -114,13 +114,13 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
     const auto samples = [&](std::size_t) { return tracing::halves_of(passes, done ? 1 : fraction_done()); };
-    tracing::add_layer("indirect", {film_.read_sum(), tables_.film_scale * world_.white, samples}, picture);
+    tracing::add_layer("indirect", {world_.context.all_reduced_sum(film_), tables_.film_scale * world_.white, samples}, picture);
   }
 
   void report(std::int64_t passes, bool done, Energy& energy) override
   {
     const double passes_done = static_cast<double>(passes) + (done ? 1 : fraction_done());
-    energy.indirect = balance_of(outcome_watts(energy_.read_sum(), tables_.energy_scale, passes_done));
+    energy.indirect = balance_of(outcome_watts(world_.context.all_reduced_sum(energy_), tables_.energy_scale, passes_done));
     energy.caustics.refused_contributions += energy.indirect->refused_contributions;
   }
 

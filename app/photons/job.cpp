@@ -54,7 +54,7 @@ struct TimedStage {
 class PassesJob final : public PhotonJob, public job::SpectrumSource {
 public:
   PassesJob(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
-            const compute::Context& context)
+            const mpi::RankContext& context)
       : world_{tracing::make_world(context, scene, bvh, plan.tables, plan.defines, preset.seed), plan.tables, preset.white,
                plan.estimates_error ? 2u : 1u},
         preset_(preset), stop_seconds_(preset.stop.seconds)
@@ -76,7 +76,7 @@ public:
       if (part->make) stages_.push_back({part->make(world_, scene, settings), part->layer});
     if (preset.stop.passes || !(preset.stop.seconds || preset.stop.error)) passes_ = preset.stop.passes.value_or(preset::default_passes);
     if (context.communicator().broadcast(context.is_cold())) { // rank 0 may have rendered a reference before
-      for (const TimedStage& s : stages_) s.stage->warm_up();
+      for (const TimedStage& s : stages_) s.stage->warm_up(context.communicator());
       world_.energy.fill_zero();
       world_.context.finish(); // a run that never comes to work must not end while kernels run
       context.set_warm();
@@ -144,7 +144,7 @@ public:
     snapshot.picture = std::move(picture);
     snapshot.progress = progress();
     const double batches = photon_batches() - at_.energy_from;
-    Energy energy{balance_of(outcome_watts(world_.energy.read_sum(), world_.tables.energy_scale, batches)), {}};
+    Energy energy{balance_of(outcome_watts(world_.context.all_reduced_sum(world_.energy), world_.tables.energy_scale, batches)), {}};
     for (std::size_t s = 0; s < stages_.size(); ++s) stages_[s].stage->report(at_.pass, s < at_.stage, energy);
     add_energy(energy, snapshot);
     return snapshot;
@@ -170,13 +170,13 @@ public:
 
   void save(ByteSink& sink) override
   {
-    tracing::State state(sink);
+    tracing::State state(sink, world_.context.communicator());
     this->state(state);
   }
 
   void load(ByteSource& source) override
   {
-    tracing::State state(source);
+    tracing::State state(source, world_.context.communicator());
     this->state(state);
     world_.context.finish();
   }
@@ -415,7 +415,7 @@ private:
 } // namespace
 
 std::unique_ptr<PhotonJob> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
-                              const compute::Context& context)
+                              const mpi::RankContext& context)
 {
   return std::make_unique<PassesJob>(preset, scene, bvh, plan, context);
 }

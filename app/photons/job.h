@@ -7,6 +7,7 @@
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
+#include "communicator/rank_context.h"
 #include "tracing/state.h"
 
 #include <memory>
@@ -35,6 +36,6 @@ public:
 /// The scene and tree are copied to the device; they need not outlive the call. plan: of the same preset and scene.
 /// Throws failed where the device has not enough memory, BuildError for a kernel that does not compile.
 std::unique_ptr<PhotonJob> make_job(const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const RunPlan& plan,
-                              const compute::Context& context);
+                              const mpi::RankContext& context);
 
 } // namespace nephroid::photons

@@ -85,8 +85,10 @@ public:
   void develop(std::int64_t passes, bool done, job::Picture& picture) override
   {
     const std::array<double, 2> samples = tracing::halves_of(batches(passes, done), slices_.fraction_done());
-    tracing::add_layer("caustic",
-                       {film_.read_sum(), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }}, picture);
+    tracing::add_layer(
+        "caustic",
+        {world_.context.all_reduced_sum(film_), world_.tables.caustic_scale * world_.white, [samples](std::size_t) { return samples; }},
+        picture);
   }
 
   void state(tracing::State& state) override
@@ -124,8 +126,8 @@ private:
   {
     std::vector<double> photons(world_.tables.lights.size(), 0); // of a pass, of each light
     for (const shared::DeviceEmitter& e : allocation_.emitters()) photons[static_cast<std::size_t>(e.light)] = e.light_photon_count;
-    guide_.learn(guide_moments_.read_sum(), photons, static_cast<double>(batch - allocation_.first_iteration()));
-    allocation_.reallocate(batch, moments_.read_sum(), world_.halves);
+    guide_.learn(world_.context.all_reduced_sum(guide_moments_), photons, static_cast<double>(batch - allocation_.first_iteration()));
+    allocation_.reallocate(batch, world_.context.all_reduced_sum(moments_), world_.halves);
     if (!insists_ && batch > first_reallocation(world_.tables.batches) && allocation_.gain() < least_gain) {
       by_variance_ = false;
       make_kernel();

@@ -41,14 +41,14 @@ public:
   virtual const char* name() const = 0;
   /// Runs its kernels once without effect on what it computes: OpenCL compiles them when they first run, and that is no work of the run's.
   /// The shared energy counters are the caller's to reset.
-  virtual void warm_up()
+  virtual void warm_up(const Communicator& communicator)
   {
     ByteStore kept; // little: films are still all 0, and such pieces are left out
-    tracing::State before(kept);
+    tracing::State before(kept, communicator);
     state(before);
     advance(0);
     StoredBytes bytes(kept.bytes(), name());
-    tracing::State back(bytes);
+    tracing::State back(bytes, communicator);
     state(back);
   }
   /// How many passes it takes part in: what has had enough samples takes no more.

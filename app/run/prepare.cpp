@@ -147,7 +147,7 @@ void require_memory(const Prepared& prepared, const compute::Context& context)
   require_memory(*prepared.plan, camera.width, camera.height, context.device(), available_memory_bytes());
 }
 
-std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context)
+std::unique_ptr<job::Job> make_job(const Prepared& prepared, const mpi::RankContext& context)
 {
   require_memory(prepared, context);
   return engine::engine_of(prepared.preset).job(prepared.preset, prepared.loaded->scene, *prepared.loaded->bvh, *prepared.plan, context);

@@ -12,6 +12,7 @@
 #include "preset/preset.h"
 #include "scene/bvh.h"
 #include "scene/scene.h"
+#include "communicator/rank_context.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -70,7 +71,7 @@ void require_memory(const plan::Plan& plan, int width, int height, const compute
 
 /// Builds the engine's job on a device. Its preset's white is a number. Throws as require_memory, before anything is allocated, BuildError
 /// for a kernel that does not compile, and bad_input for what the engine cannot render.
-std::unique_ptr<job::Job> make_job(const Prepared& prepared, const compute::Context& context);
+std::unique_ptr<job::Job> make_job(const Prepared& prepared, const mpi::RankContext& context);
 
 /// The white that shows a picture, which was made with a white of 1, well: half of it, but for its caustics, is darker than .5. A pixel
 /// counts by the root of its luminance. Caustics count where all else is less than an eighth as bright. Two digits; 1 of a black picture.

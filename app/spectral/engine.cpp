@@ -73,7 +73,7 @@ constinit const engine::Engine engine{
       return std::make_unique<photons::RunPlan>(make_plan(preset, scene, bvh));
     },
     .job = [](const preset::Preset& preset, const scene::Scene& scene, const scene::Bvh& bvh, const plan::Plan& plan,
-              const compute::Context& context) -> std::unique_ptr<job::Job> {
+              const mpi::RankContext& context) -> std::unique_ptr<job::Job> {
       return photons::make_job(preset, scene, bvh, dynamic_cast<const photons::RunPlan&>(plan), context);
     },
     .reference = reference,

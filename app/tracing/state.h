@@ -3,6 +3,7 @@
 // host, and an empty film takes no room.
 #pragma once
 #include "base/bytes.h"
+#include "base/communicator.h"
 #include "compute/compute.h"
 
 #include <algorithm>
@@ -17,29 +18,31 @@ namespace nephroid::tracing {
 /// nephroid::State with the buffers of a device. Those of the ranks are one buffer there, whatever their number is.
 class State : public nephroid::State {
 public:
-  using nephroid::State::State;
+  State(ByteSink& to, const Communicator& communicator) : nephroid::State(to), communicator_(communicator) {}
+  State(ByteSource& from, const Communicator& communicator) : nephroid::State(from), communicator_(communicator) {}
 
-  /// Sums that every rank adds to (Buffer::read_sum): what was loaded is rank 0's.
+  /// Sums that every rank adds to (mpi::RankContext::all_reduced_sum): what was loaded is rank 0's.
   void buffer(compute::Buffer<std::int64_t>& buffer)
   {
     in_pieces(buffer, [&](std::size_t) {
-      if (is_read() && !buffer.communicator().is_root()) std::ranges::fill(piece_, std::byte{0});
-      if (to_) buffer.communicator().all_reduce_sum({reinterpret_cast<std::int64_t*>(piece_.data()), piece_.size() / sizeof(std::int64_t)});
+      if (is_read() && !communicator_.is_root()) std::ranges::fill(piece_, std::byte{0});
+      if (to_) communicator_.all_reduce_sum({reinterpret_cast<std::int64_t*>(piece_.data()), piece_.size() / sizeof(std::int64_t)});
     });
   }
-  /// What one of the ranks has written each item of, and the others have 0 (Buffer::read_joined): what was loaded all of them have.
+  /// What one of the ranks has written each item of, and the others have 0 (mpi::RankContext::all_reduced_or): what was loaded all of them
+  /// have.
   template <class T>
   void joined(compute::Buffer<T>& buffer)
   {
     in_pieces(buffer, [&](std::size_t) {
-      if (to_) buffer.communicator().all_reduce_or(piece_);
+      if (to_) communicator_.all_reduce_or(piece_);
     });
   }
   /// Several values of each item of `partition` (Partition::clear_others); others' than a rank's own are of no account.
   template <class T>
   void owned(compute::Buffer<T>& buffer, const Partition& partition, std::size_t values_an_item)
   {
-    if (to_ && !buffer.communicator().is_alone()) {
+    if (to_ && !communicator_.is_alone()) {
       std::vector<T> items = buffer.read();
       partition.clear_others(std::span(items), values_an_item);
       buffer.write(items);
@@ -71,6 +74,7 @@ private:
   /// The first byte is 0 and each is as the one before.
   bool all_zero() const { return piece_[0] == std::byte{0} && std::memcmp(piece_.data(), piece_.data() + 1, piece_.size() - 1) == 0; }
 
+  Communicator communicator_;
   std::vector<std::byte> piece_;
 };
 

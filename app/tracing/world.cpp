@@ -71,7 +71,7 @@ SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, 
   return buffers;
 }
 
-World make_world(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
+World make_world(const mpi::RankContext& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
                  const compute::Defines& defines, std::uint64_t seed)
 {
   World world{context, upload(context, scene, bvh, tables), tables.scene, defines, {}};

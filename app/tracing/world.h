@@ -4,6 +4,7 @@
 #include "compute/compute.h"
 #include "plan/plan.h"
 #include "scene/bvh.h"
+#include "communicator/rank_context.h"
 #include "tracing/scene_tables.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ void upload_surfaces(const compute::Context& context, const scene::Scene& scene,
 SceneBuffers upload(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables);
 
 struct World {
-  compute::Context context;
+  mpi::RankContext context;
   SceneBuffers buffers;
   shared::DeviceScene scene{};
   compute::Defines defines; ///< for every kernel
@@ -84,7 +85,7 @@ struct World {
 };
 
 /// The scene and tree are copied to the device; they need not outlive the call. defines: of the plan. Throws as upload.
-World make_world(const compute::Context& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
+World make_world(const mpi::RankContext& context, const scene::Scene& scene, const scene::Bvh& bvh, const SceneTables& tables,
                  const compute::Defines& defines, std::uint64_t seed);
 
 } // namespace nephroid::tracing

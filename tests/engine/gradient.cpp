@@ -180,7 +180,7 @@ constinit const engine::Engine engine{.settings = settings_type,
                                       .state_version = 1,
                                       .plan = make_plan,
                                       .job = [](const preset::Preset& preset, const scene::Scene&, const scene::Bvh&,
-                                                const plan::Plan& plan, const compute::Context&) -> std::unique_ptr<job::Job> {
+                                                const plan::Plan& plan, const mpi::RankContext&) -> std::unique_ptr<job::Job> {
                                         return std::make_unique<GradientJob>(preset, dynamic_cast<const GradientPlan&>(plan));
                                       },
                                       .reference = reference,

@@ -61,7 +61,7 @@ BakeTask make_task(const preset::Preset& preset)
   return task;
 }
 
-Baker::Baker(const BakeTask& task, const compute::Context& context, std::size_t wanted)
+Baker::Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t wanted)
     : task_(task), wanted_(std::min(wanted, task.directions.size())),
       world_(tracing::make_world(context, task.caster.scene, task.bvh, task.tables, task.defines, task.seed)),
       light_rgb_(compute::Buffer(context, "white light", white_light())),

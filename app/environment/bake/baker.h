@@ -4,6 +4,7 @@
 #include "environment/bake/bake.h"
 #include "environment/bake/caster.h"
 #include "scene/bvh.h"
+#include "communicator/rank_context.h"
 #include "tracing/scene_tables.h"
 #include "tracing/slices.h"
 #include "tracing/world.h"
@@ -50,7 +51,7 @@ BakeTask make_task(const preset::Preset& preset);
 class Baker {
 public:
   /// task outlives it. wanted: directions that it will be asked for. Throws failed where the device has not enough memory.
-  Baker(const BakeTask& task, const compute::Context& context, std::size_t wanted = ~std::size_t{0});
+  Baker(const BakeTask& task, const mpi::RankContext& context, std::size_t wanted = ~std::size_t{0});
 
   /// Photons of the direction in hand; with its last ones the direction is added to the bake. With several ranks, of a direction for each rank.
   void advance();

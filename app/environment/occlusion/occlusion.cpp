@@ -144,7 +144,7 @@ scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::si
   return result;
 }
 
-tracing::World surroundings_world(const compute::Context& context, const scene::Scene& surroundings)
+tracing::World surroundings_world(const mpi::RankContext& context, const scene::Scene& surroundings)
 {
   const scene::Bvh bvh = scene::build_bvh(surroundings.geometry);
   return tracing::make_world(context, surroundings, bvh, tracing::make_scene_tables(surroundings, {optics::all_wavelengths()}, {}),

@@ -60,6 +60,6 @@ private:
 scene::Scene without_caster(const scene::Scene& scene, const std::vector<std::size_t>& caster);
 
 /// The surroundings on a device, with their tree. Throws failed where the device has not enough memory.
-tracing::World surroundings_world(const compute::Context& context, const scene::Scene& surroundings);
+tracing::World surroundings_world(const mpi::RankContext& context, const scene::Scene& surroundings);
 
 } // namespace nephroid::environment

@@ -20,7 +20,7 @@ std::uint64_t Receivers::bytes(int size)
   return texels_of(size) * (sizeof(int) + 7 * sizeof(float) + sizeof(shared::float4) + sizeof(std::uint32_t));
 }
 
-Receivers::Receivers(const compute::Context& context, int size)
+Receivers::Receivers(const mpi::RankContext& context, int size)
     : context_(context), size_(size), states_(context, "wanted receivers", texels_of(size)),
       distances_(context, "receivers' distances", texels_of(size)), caustics_(context, "caustics on receivers", 3 * texels_of(size)),
       parts_seen_(context, "environment that receivers see", 3 * texels_of(size)), normals_(context, "receivers' normals", texels_of(size)),
@@ -40,7 +40,7 @@ void Receivers::forget()
 
 void Receivers::find_wanted(std::optional<Surroundings>& surroundings, const glm::dvec3& middle)
 {
-  states_read_ = states_.read_joined();
+  states_read_ = context_.all_reduced_or(states_);
   // Square after square, as texels beside each other look up spheres beside each other: a sixth faster than row after row.
   const std::size_t size = static_cast<std::size_t>(size_);
   for (std::size_t top = 0; top < 6 * size; top += square)

@@ -3,6 +3,7 @@
 // path from the eye has ended near (kernels/environment/see.cl), each once until something changes.
 #pragma once
 #include "environment/light/caustics.h"
+#include "communicator/rank_context.h"
 #include "tracing/world.h"
 
 #include <cstdint>
@@ -21,7 +22,7 @@ struct Surroundings {
 class Receivers {
 public:
   /// size: texels along an edge of a face.
-  Receivers(const compute::Context& context, int size);
+  Receivers(const mpi::RankContext& context, int size);
 
   /// On the device.
   static std::uint64_t bytes(int size);
@@ -48,7 +49,7 @@ public:
 private:
   void share(const Partition& partition, compute::Buffer<float>& values) const;
 
-  compute::Context context_;
+  mpi::RankContext context_;
   int size_;
   compute::Buffer<int> states_;
   compute::Buffer<float> distances_, caustics_, parts_seen_;

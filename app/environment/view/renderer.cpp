@@ -38,7 +38,7 @@ std::uint64_t Renderer::medium_bytes(const Bake& bake)
   return Receivers::bytes(coarse_receivers) + Caustics::air_bytes(bake, fine_side(bake.map.side));
 }
 
-Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const compute::Context& context)
+Renderer::Renderer(RenderTask task, double white, std::uint64_t seed, const mpi::RankContext& context)
     : task_(std::move(task)), white_(white), rotate_deg_(backdrop(*task_.scene).rotate_deg), context_(context),
       world_(tracing::make_world(context, *task_.scene, *task_.bvh, task_.tables, task_.defines, seed)),
       channel_cdf_(compute::Buffer(context, "wavelengths of channels", channel_cdf())),

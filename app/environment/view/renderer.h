@@ -8,6 +8,8 @@
 #include "environment/view/receivers.h"
 #include "environment/view/render_task.h"
 #include "job/job.h"
+#include "scene/move.h"
+#include "communicator/rank_context.h"
 #include "tracing/state.h"
 #include "tracing/slices.h"
 
@@ -29,7 +31,7 @@ public:
   static std::uint64_t medium_bytes(const Bake& bake);
 
   /// white: as preset::Preset has it. Throws failed where the device has not enough memory.
-  Renderer(RenderTask task, double white, std::uint64_t seed, const compute::Context& context);
+  Renderer(RenderTask task, double white, std::uint64_t seed, const mpi::RankContext& context);
 
   /// Begins anew with the caustics of the task's caster, which outlive the renderer. Until then there are none.
   void set_caustics(Caustics& caustics);
@@ -91,7 +93,7 @@ private:
 
   RenderTask task_;
   double white_, rotate_deg_;
-  compute::Context context_;
+  mpi::RankContext context_;
   tracing::World world_;
   bool is_refitted_ = false; ///< the tree
   std::optional<Surroundings> surroundings_;

@@ -13,7 +13,7 @@
 #include <utility>
 
 namespace nephroid::inverse {
-Assignment::Assignment(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
+Assignment::Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed)
     : given_(layout), layout_(layout), targets_(targets), seed_(seed), tones_(targets.size(), 1.0), wanted_(targets),
       weights_(picture_weights(layout, targets)), heights_(layout.facet_count()), facets_(context, layout, targets, weights_)
 {

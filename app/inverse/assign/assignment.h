@@ -3,6 +3,7 @@
 #pragma once
 #include "inverse/assign/refinement.h"
 #include "inverse/method.h"
+#include "communicator/rank_context.h"
 
 #include <optional>
 
@@ -17,7 +18,7 @@ namespace nephroid::inverse {
 class Assignment final : public Method {
 public:
   /// The layout and the targets outlive it. Facets begin with random slopes. Throws failed where the device has not enough memory.
-  Assignment(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
+  Assignment(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, std::uint64_t seed);
 
   /// One batch, or one step of the refinement.
   void advance() override;

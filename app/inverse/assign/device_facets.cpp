@@ -53,11 +53,11 @@ std::vector<float> wanted_of(const Layout& layout, const std::vector<Target>& ta
 
 /// Puts the first `own` items of each rank at their place among `count`: those of this one begin at `begin`.
 template <class T>
-void share(compute::Buffer<T>& items, std::size_t begin, std::size_t own, std::size_t count)
+void share(compute::Buffer<T>& items, std::size_t begin, std::size_t own, std::size_t count, const Communicator& communicator)
 {
   std::vector<T> all(count);
   items.RawBuffer::read(all.data() + begin, own * sizeof(T), 0);
-  items.communicator().all_reduce_or(std::as_writable_bytes(std::span(all)));
+  communicator.all_reduce_or(std::as_writable_bytes(std::span(all)));
   items.write(all);
 }
 
@@ -159,7 +159,7 @@ compute::Defines facet_defines(const Layout& layout)
           {"NEPHROID_SMOOTHS", layout.smoothing > 0 ? "1" : "0"}};
 }
 
-DeviceFacets::DeviceFacets(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets,
+DeviceFacets::DeviceFacets(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets,
                            std::span<const double> weights)
     : context_(context), layout_(context, "layout", std::vector{device_layout(layout)}), facets_(layout.facet_count()),
       batch_(batch_of(layout)), cells_(layout.cell_count() * targets.size()),
@@ -253,8 +253,8 @@ void DeviceFacets::find_better(std::size_t first, std::size_t count, double smoo
     improve_.run(own, group, shared, {{"candidates", candidates_}, {"seed", seed_}, {"sweep", sweep_}, {"found", found_}, {"done", done_}});
   }
   if (communicator.is_alone()) return;
-  share(found_, begin, own, count);
-  share(done_, begin, own, count);
+  share(found_, begin, own, count, communicator);
+  share(done_, begin, own, count, communicator);
 }
 
 void DeviceFacets::improve(std::size_t first, std::size_t count, double smoothing)
@@ -297,7 +297,7 @@ std::vector<glm::dvec2> DeviceFacets::gradient()
                         {"count", count},
                         {"gradient", gradient_}});
   });
-  return wide(gradient_.read_joined());
+  return wide(context_.all_reduced_or(gradient_));
 }
 
 std::uint64_t DeviceFacets::bytes(const Layout& l)

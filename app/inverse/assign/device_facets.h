@@ -6,6 +6,7 @@
 #include "compute/compute.h"
 #include "inverse/layout.h"
 #include "kernels/inverse/facet_types.h"
+#include "communicator/rank_context.h"
 
 #include <array>
 #include <cstdint>
@@ -28,7 +29,7 @@ public:
   static constexpr std::size_t most_in_a_batch = 4096;
 
   /// weights: of a receiver's squares. Throws failed where the device has not enough memory.
-  DeviceFacets(const compute::Context& context, const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
+  DeviceFacets(const mpi::RankContext& context, const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
 
   /// Other distances, targets and weights.
   void aim(const Layout& layout, const std::vector<Target>& targets, std::span<const double> weights);
@@ -58,7 +59,7 @@ public:
   void state(State& state);
 
 private:
-  compute::Context context_;
+  mpi::RankContext context_;
   compute::Buffer<shared::DeviceLayout> layout_; ///< one
   std::size_t facets_, batch_, cells_, rows_;    ///< cells and their rows: of all receivers
   compute::Buffer<shared::DeviceReceiver> receivers_;

@@ -41,7 +41,7 @@ public:
   }
 
   /// Over no photon and no pixel.
-  void warm_up() override
+  void warm_up(const Communicator& /*communicator*/) override
   {
     map_.build(first_radius_, 0);
     eye_.warm_up();
@@ -73,7 +73,8 @@ public:
   void develop_preview(job::Picture& picture) override
   {
     const double scale = world_.tables.caustic_scale * world_.white;
-    tracing::add_layer("caustic", {preview_film_.read_sum(), scale, [](std::size_t) { return std::array{1.0, 1.0}; }}, picture);
+    const auto samples = [](std::size_t) { return std::array{1.0, 1.0}; };
+    tracing::add_layer("caustic", {world_.context.all_reduced_sum(preview_film_), scale, samples}, picture);
   }
 
   bool advance(std::int64_t pass) override
@@ -95,7 +96,7 @@ public:
     const std::int64_t complete = passes + (done ? 1 : 0);
     const std::uint32_t next = eye_.done() > 0 ? world_.pixels.glass[static_cast<std::size_t>(eye_.done())] : 0; // in the pass in hand
     const auto samples = [=](std::size_t pixel) { return tracing::halves_of(complete + (pixel < next ? 1 : 0), 0); };
-    tracing::add_layer("caustic", {film_.read_sum(), world_.tables.caustic_scale * world_.white, samples}, picture);
+    tracing::add_layer("caustic", {world_.context.all_reduced_sum(film_), world_.tables.caustic_scale * world_.white, samples}, picture);
   }
 
   void state(tracing::State& state) override

@@ -49,8 +49,8 @@ double pixel_width(const scene::Camera& camera, const scene::Sphere& bounds)
 
 double photon_scale(std::uint32_t photons, double watts) { return tracing::power_of_two_below(std::exp2(12) * photons / watts); }
 
-PhotonMap::PhotonMap(const compute::Context& context, std::uint32_t slots, const compute::Defines& defines)
-    : stored_(context, "photons", slots), starts_(context, "photon grid", bucket_mask(slots) + GRID_BLOCK + 1),
+PhotonMap::PhotonMap(const mpi::RankContext& context, std::uint32_t slots, const compute::Defines& defines)
+    : context_(context), stored_(context, "photons", slots), starts_(context, "photon grid", bucket_mask(slots) + GRID_BLOCK + 1),
       block_sums_(context, "photon grid blocks", scan_blocks),
       positions_(context, "sorted photon positions", 3 * std::size_t{stride(slots)}),
       values_(context, "sorted photons", 4 * std::size_t{stride(slots)})
@@ -79,7 +79,7 @@ std::uint64_t PhotonMap::bytes(std::uint32_t slots)
 void PhotonMap::build(double cell_edge, std::uint32_t slots)
 {
   grid_.inverse_cell = static_cast<float>(1 / cell_edge);
-  if (!stored_.communicator().is_alone()) stored_.write(stored_.read_joined());
+  if (!context_.communicator().is_alone()) stored_.write(context_.all_reduced_or(stored_));
   starts_.fill_zero();
   count_.run(std::max(slots, 1u), 64, {{"stored", stored_}, {"counts", starts_}, {"grid", grid_}, {"slots", slots}});
   sum_.run(scan_blocks, 16, {{"counts", starts_}, {"sums", block_sums_}, {"grid", grid_}});

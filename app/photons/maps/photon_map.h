@@ -5,6 +5,7 @@
 #include "compute/compute.h"
 #include "kernels/photons/photon_map_types.h"
 #include "photons/plan_part.h"
+#include "communicator/rank_context.h"
 
 #include <array>
 #include <cstdint>
@@ -18,7 +19,7 @@ double photon_scale(std::uint32_t photons, double watts);
 class PhotonMap {
 public:
   /// Room for `slots` photons, 1 <= slots < 2^30. defines: of every kernel. Throws failed where the device has not enough memory.
-  PhotonMap(const compute::Context& context, std::uint32_t slots, const compute::Defines& defines = {});
+  PhotonMap(const mpi::RankContext& context, std::uint32_t slots, const compute::Defines& defines = {});
   /// What it takes on the device.
   static std::uint64_t bytes(std::uint32_t slots);
 
@@ -35,6 +36,7 @@ public:
   }
 
 private:
+  mpi::RankContext context_;
   compute::Buffer<shared::StoredPhoton> stored_;
   compute::Buffer<std::uint32_t> starts_, block_sums_;
   compute::Buffer<float> positions_;

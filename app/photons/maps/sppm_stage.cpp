@@ -64,7 +64,7 @@ public:
   }
 
   /// Its state may be gigabytes, so nothing is saved: kernels run over no photon and no pixel.
-  void warm_up() override
+  void warm_up(const Communicator& /*communicator*/) override
   {
     send_photons(0, {});
     map_.build(first_radius_, 0);
@@ -132,7 +132,8 @@ public:
       const bool had = done || (!random_ && run < at_.cluster) || (in_hand && at_.sent);
       const double count = static_cast<double>(iterations_of(run, passes + (had ? 1 : 0))) + (in_hand && !at_.sent ? slices_.fraction_done() : 0);
       if (count <= 0) continue;
-      const OutcomeWatts run_watts = outcome_watts(runs_[static_cast<std::size_t>(run)].energy.read_sum(), world_.tables.energy_scale, count);
+      const OutcomeWatts run_watts =
+          outcome_watts(world_.context.all_reduced_sum(runs_[static_cast<std::size_t>(run)].energy), world_.tables.energy_scale, count);
       const double share = random_ ? cluster_count() : 1; // a run that all clusters share draws one of them for all
       for (std::size_t i = 0; i < watts.size(); ++i) watts[i] += i == OUTCOME_REFUSED ? run_watts[i] : share * run_watts[i];
     }

@@ -180,7 +180,7 @@ std::size_t bent_cells(const shared::DeviceCamera& camera, std::span<const scene
 
 static_assert(sizeof(LayerWeight) == 6 * sizeof(float), "the weights as kernels/photons/relight_weigh.cl reads them");
 
-LayerFilm::LayerFilm(const compute::Context& context, const std::string& name, const LayerCells& cells, std::size_t layers,
+LayerFilm::LayerFilm(const mpi::RankContext& context, const std::string& name, const LayerCells& cells, std::size_t layers,
                      std::size_t halves, const compute::Defines& defines)
     : context_(context), layers_(layers), halves_(halves), pixels_(cells.first.size() - 1), cell_count_(cells.count()),
       first_(context, name + ": cells of each pixel", cells.first),
@@ -205,7 +205,7 @@ std::array<std::vector<float>, 2> LayerFilm::weigh(const LayerFilmWeights& by)
   else
     weights_ = compute::Buffer<float>(context_, "weights of layers", numbers);
   const Communicator& communicator = context_.communicator();
-  if (!communicator.is_alone()) sums_.write(sums_.read_sum());
+  if (!communicator.is_alone()) sums_.write(context_.all_reduced_sum(sums_));
   weigh_.run(cell_count_ / 8, 64,
              {{"sums", sums_},
               {"block_count", static_cast<int>(cell_count_ / LAYER_BLOCK)},
@@ -308,7 +308,7 @@ void change_light(Relighting& relighting, DeviceWorld& world, LayerLight light)
   relighting.light = std::move(light);
   ++relighting.changes;
   world.tables.energy_scale = layer_energy_scale(relighting.light, world.tables);
-  std::vector<std::int64_t> sums = world.energy.read_sum();
+  std::vector<std::int64_t> sums = world.context.all_reduced_sum(world.energy);
   for (int outcome = 0; outcome < OUTCOME_COUNT; ++outcome)
     if (outcome != OUTCOME_REFUSED) sums[static_cast<std::size_t>(outcome)] = 0;
   world.energy.write(sums);

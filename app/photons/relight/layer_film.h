@@ -10,6 +10,7 @@
 #include "photons/relight/layer_light.h"
 #include "photons/tables/device_world.h"
 #include "scene/scene.h"
+#include "communicator/rank_context.h"
 #include "tracing/state.h"
 
 #include <array>
@@ -72,7 +73,7 @@ class LayerFilm {
 public:
   LayerFilm() = default;
   /// Holds halves x layers sums a cell, all 0.
-  LayerFilm(const compute::Context& context, const std::string& name, const LayerCells& cells, std::size_t layers, std::size_t halves,
+  LayerFilm(const mpi::RankContext& context, const std::string& name, const LayerCells& cells, std::size_t layers, std::size_t halves,
             const compute::Defines& defines);
 
   std::size_t layers() const { return layers_; }
@@ -91,7 +92,7 @@ public:
   void state(tracing::State& state) { state.buffer(sums_); }
 
 private:
-  compute::Context context_{};
+  mpi::RankContext context_{};
   std::size_t layers_ = 0, halves_ = 1, pixels_ = 0, cell_count_ = 0;
   compute::Buffer<int> first_, reflector_of_block_;
   compute::Buffer<shared::LayerCell> cells_;
