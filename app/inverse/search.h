@@ -13,7 +13,7 @@ namespace nephroid::inverse {
 
 class Search {
 public:
-  /// triangles: of the solid, about. Preset, layout and targets outlive it, and may change as begin_count() has it.
+  /// triangles: of the solid, about. Preset, layout and targets outlive it.
   Search(const preset::Preset& preset, const Layout& layout, const std::vector<Target>& targets, std::uint64_t triangles,
          const mpi::RankContext& context);
 

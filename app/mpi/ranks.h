@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ranks of an MPI job as a communicator. MPI itself is in a module of its own (mpi/module.cpp), which is loaded where mpirun or srun has
+// The ranks of an MPI job as a communicator. MPI itself is in a module of its own (module/module.cpp), which is loaded where mpirun or srun has
 // started this process, and only there.
 #pragma once
 #include "base/error.h"

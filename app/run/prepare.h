@@ -4,6 +4,7 @@
 #include "base/watch.h"
 #include "compute/compute.h"
 #include "job/job.h"
+#include "mpi/rank_context.h"
 #include "plan/plan.h"
 #include "preset/preset.h"
 #include "scene/bvh.h"

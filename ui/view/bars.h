@@ -28,7 +28,7 @@ void draw_metrics(const Context& context, WidgetPlaces& places);
 /// What is selected: its name and a list to choose from, the tools that move it, and the list of camera bookmarks. Nothing where the preset
 /// has no scene. places: "selected", "cameras" and, in the list of bookmarks, "go 0", "name 0", "delete 0" and so on.
 void draw_selection_bar(const Context& context, WidgetPlaces& places);
-/// An edit of the preset that is open, where its camera is another. index: of Chosen::bookmarks.
+/// An edit of the preset that is open, where its camera is another. index: of ViewState::bookmarks.
 void go_to_bookmark(const Context& context, std::size_t index);
 
 /// Lines of text on a dark ground, its upper left corner at `at`.

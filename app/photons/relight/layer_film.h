@@ -38,7 +38,7 @@ struct ReflectorSurvey {
 };
 
 /// A cell for each pixel and reflector that the pixel or one of its eight neighbours sees: what is at an edge may be in the pixel beside.
-/// most: at most so many; then what pixels see least goes first. Unseen::a_cell: also a pixel that sees nothing has one, where there are
+/// most: at most so many; then what pixels see least goes first. EmptyPixel::a_cell: also a pixel that sees nothing has one, where there are
 /// reflectors at all (then `most` is at least the number of pixels).
 enum class EmptyPixel { no_cell, a_cell };
 LayerCells make_layer_cells(const ReflectorSurvey& survey, std::size_t most, EmptyPixel unseen);
