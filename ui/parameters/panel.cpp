@@ -6,67 +6,6 @@
 
 #include <imgui.h>
 
-#include <algorithm>
-
-namespace nephroid::ui {
-namespace {
-
-using preset::Outline;
-using Kind = Outline::Kind;
-
-bool is_leaf(const Outline& o)
-{
-  const bool objects = o.kind == Kind::object || o.kind == Kind::list || o.kind == Kind::map;
-  return !objects && o.kind != Kind::table && o.kind != Kind::texts && !(o.kind == Kind::numbers && o.size == 0);
-}
-
-const Json& part(const Json& object, const Outline& o)
-{
-  static const Json none;
-  const auto found = object.find(o.field.name);
-  return found == object.end() ? none : *found;
-}
-
-bool is_changed(const Outline& o, const Json& value)
-{
-  if (o.kind != Kind::object || o.optional) return !o.field.required && value != o.standard;
-  const auto fields = o.fields(value);
-  return std::any_of(fields.begin(), fields.end(), [&](const Outline& f) { return is_changed(f, part(value, f)); });
-}
-
-/// By default. What has no default, a list and the type of an object stay as they are.
-Json reset(const Outline& o, const Json& value)
-{
-  if (o.optional) return nullptr;
-  if (o.kind == Kind::object) {
-    Json reset_fields = value;
-    for (const Outline& f : o.fields(value))
-      if (value.contains(f.field.name)) reset_fields[std::string(f.field.name)] = reset(f, part(value, f));
-    return reset_fields;
-  }
-  return o.field.required || o.kind == Kind::list || o.kind == Kind::map ? value : o.standard;
-}
-
-/// What an optional field is when it is given.
-Json given(const Outline& o)
-{
-  const double number = o.field.bounds.contain(1) ? 1 : o.field.bounds.low;
-  if (o.kind == Kind::number) return number;
-  if (o.kind == Kind::integer) return static_cast<std::int64_t>(number);
-  if (o.size > 0) return std::vector<double>(o.size, number);
-  return o.object ? o.fresh() : o.kind == Kind::boolean ? Json(false) : o.kind == Kind::text ? Json("") : Json::array();
-}
-
-std::string help_of(const Outline& o, const std::string& pointer)
-{
-  std::string text = fmt::format("{}: {}", dotted(pointer), o.field.sentence);
-  if (o.kind == Kind::object) return text;
-  text += fmt::format("\nWanted: {}", o.expected);
-  if (o.optional) return text + "; may be left out";
-  if (o.field.required || o.chooses || o.standard.size() > 8) return text;
-  return text +
-         fmt::format("; by default {}", o.standard.is_string() ? fmt::format("\"{}\"", o.standard.get<std::string>()) : o.standard.dump());
-}
 #include <map>
 
 namespace nephroid::ui {
