@@ -64,7 +64,8 @@ private:
 };
 
 /// Waits for what another thread or process does, until it is seen and not for a time that a slow machine would need:
-/// calls step() and rests for a moment in turn until done(); says whether it was done before five minutes were over, which no machine needs.
+/// calls step() and rests for a moment in turn until done(); says whether it was done before five minutes were over,
+/// which no machine needs.
 template <class Step, class Done>
 bool eventually(Step step, Done done)
 {
