@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numeric>
 #include <random>
-#include <random>
 #include <utility>
 
 namespace nephroid::inverse {

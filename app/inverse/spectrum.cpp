@@ -95,7 +95,7 @@ Refraction make_refraction(const preset::Preset& preset)
   const std::vector<LightPart> parts =
       is_coloured ? coloured(scene::make_light_spectrum(*s.light.spectrum, own / "light" / "spectrum"), index) : band(s, index);
   if (!is_coloured && std::ranges::all_of(parts, [&](const LightPart& part) { return part.n == parts.front().n; }))
-    return {.n = parts.front().n, .spectrum = {}};
+    return {parts.front().n, std::nullopt};
   double n = 0;
   for (const LightPart& part : parts) n += part.n * part.xyz.y;
   return {n, Spectrum{parts, is_coloured}};
