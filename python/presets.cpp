@@ -3,6 +3,7 @@
 #include "compute/compute.h"
 #include "preset/origins.h"
 #include "preset/read.h"
+#include "preset/schema.h"
 #include "python/bindings.h"
 #include "run/prepare.h"
 

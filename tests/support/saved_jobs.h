@@ -2,6 +2,7 @@
 // Jobs saved to memory and loaded from there.
 #pragma once
 #include "base/bytes.h"
+#include "base/communicator.h"
 #include "tests/support/test.h"
 
 namespace nephroid::test {
@@ -14,7 +15,7 @@ std::vector<std::byte> saved(Saver& saver)
   if constexpr (std::is_same_v<Writer, ByteSink>)
     saver.save(store);
   else {
-    Writer to(store);
+    Writer to(store, Communicator());
     saver.state(to);
   }
   return store.bytes();
@@ -28,7 +29,7 @@ bool load(Loader& loader, std::span<const std::byte> bytes)
   if constexpr (std::is_same_v<Reader, ByteSource>)
     loader.load(stored);
   else {
-    Reader from(stored);
+    Reader from(stored, Communicator());
     loader.state(from);
   }
   return stored.left() == 0;

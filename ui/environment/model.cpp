@@ -146,15 +146,15 @@ std::vector<RegionFigures> figures_of(const environment::Segmentation& segmentat
     for (const environment::Region& region : *regions) {
       const glm::dvec3 d = environment::turned(region.direction, rotate_deg);
       const double flux = environment::luminance(region.flux);
-      RegionFigures figures;
-      figures.flux = radiance * flux;
-      figures.share = total > 0 ? flux / total : 0;
-      figures.azimuth_deg = glm::degrees(std::atan2(d.x, -d.z));
-      figures.elevation_deg = glm::degrees(std::asin(std::clamp(d.y, -1.0, 1.0)));
-      figures.solid_angle_sr = region.solid_angle_sr;
-      figures.colour = colour_of(region.flux);
-      if (figures.size() < visible.size()) figures.occluded = 1 - visible[figures.size()];
-      figures.push_back(figures);
+      RegionFigures region_figures;
+      region_figures.flux = radiance * flux;
+      region_figures.share = total > 0 ? flux / total : 0;
+      region_figures.azimuth_deg = glm::degrees(std::atan2(d.x, -d.z));
+      region_figures.elevation_deg = glm::degrees(std::asin(std::clamp(d.y, -1.0, 1.0)));
+      region_figures.solid_angle_sr = region.solid_angle_sr;
+      region_figures.colour = colour_of(region.flux);
+      if (figures.size() < visible.size()) region_figures.occluded = 1 - visible[figures.size()];
+      figures.push_back(region_figures);
     }
   return figures;
 }

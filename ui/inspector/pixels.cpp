@@ -181,22 +181,22 @@ std::optional<PixelRegion> cut_to(const PixelRegion& region, int width, int heig
 
 RegionStatistics region_statistics(RegionRequest request)
 {
-  RegionStatistics statistics;
+  RegionStatistics all;
   request.region = *cut_to(request.region, request.picture.pixels.width, request.picture.pixels.height);
   const std::vector<Rgb> run = pixels_of(request.picture.pixels, request.region);
-  statistics.pictures.push_back(statistics("run", run, request.white));
+  all.pictures.push_back(statistics("run", run, request.white));
   if (request.other.owner) {
     const std::vector<Rgb> other = pixels_of(request.other.pixels, request.region);
     std::vector<Rgb> difference = run;
     for (std::size_t i = 0; i < run.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c) difference[i][c] -= other[i][c];
-    statistics.pictures.push_back(statistics(request.other_name, other, request.white));
-    statistics.pictures.push_back(statistics("difference", difference, request.white));
-    statistics.histogram = histogram({&run, &other}, request.white);
+    all.pictures.push_back(statistics(request.other_name, other, request.white));
+    all.pictures.push_back(statistics("difference", difference, request.white));
+    all.histogram = histogram({&run, &other}, request.white);
   } else
-    statistics.histogram = histogram({&run}, request.white);
-  statistics.of = std::move(request);
-  return statistics;
+    all.histogram = histogram({&run}, request.white);
+  all.of = std::move(request);
+  return all;
 }
 
 void request_statistics(NewestResult<RegionStatistics>& statistics, TaskQueue& tasks, const RegionRequest& request)

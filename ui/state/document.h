@@ -18,7 +18,7 @@ namespace nephroid::ui {
 class Document {
 public:
   /// All outlive it.
-  Document(RunInHand& run, ViewState& view_state, Services& services) : run_(run), view_state_(chosen), services_(services) {}
+  Document(RunInHand& run, ViewState& view_state, Services& services) : run_(run), view_state_(view_state), services_(services) {}
 
   /// Both are null where no preset is open.
   const UndoStack* edits() const { return edits_ ? &*edits_ : nullptr; }

@@ -18,7 +18,7 @@ public:
   /// All outlive it.
   FileWriter(Document& document, const RunInHand& run, const Comparing& comparing, const ViewState& view_state, Questions& questions,
              Services& services)
-      : document_(document), run_(run), comparing_(comparing), view_state_(chosen), questions_(questions), services_(services)
+      : document_(document), run_(run), comparing_(comparing), view_state_(view_state), questions_(questions), services_(services)
   {
   }
   const RecentFiles& recent() const { return recent_; }
